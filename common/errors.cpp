@@ -1,0 +1,49 @@
+#include "common/errors.hpp"
+
+#include <fmt/core.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <new>
+
+namespace common {
+
+namespace {
+std::atomic<bool> interrupt_raised{false};
+extern "C" void raise_interrupt(int) { interrupt_raised.store(true, std::memory_order_relaxed); }
+}  // namespace
+
+int run_guarded(const std::string& program, const std::function<int()>& body) {
+    try {
+        return body();
+    } catch (const InputError& error) {
+        fmt::print(stderr, "{}: {}\n", program, error.what());
+        return exit_bad_input;
+    } catch (const Interrupted&) {
+        fmt::print(stderr, "{}: interrupted; finished windows are kept, --resume goes on from them\n", program);
+        return exit_interrupted;
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "{}: out of memory\n", program);
+        return exit_failed;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}: {}\n", program, error.what());
+        return exit_failed;
+    }
+}
+
+void watch_for_interrupts() {
+    struct sigaction action {};
+    action.sa_handler = raise_interrupt;
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+    // A write past a file-size limit must fail with EFBIG, not kill the program.
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
+}
+
+void check_for_interrupt() {
+    if (interrupt_raised.load(std::memory_order_relaxed)) throw Interrupted();
+}
+
+}  // namespace common
