@@ -1,0 +1,343 @@
+#include "coupler/chain.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <list>
+#include <memory>
+#include <thread>
+
+#include "common/chain_record.hpp"
+#include "common/errors.hpp"
+#include "common/scene_file.hpp"
+#include "coupler/board.hpp"
+#include "coupler/scene_check.hpp"
+#include "coupler/stage_process.hpp"
+#include "coupler/stage_progress.hpp"
+#include "coupler/stages.hpp"
+
+namespace coupler {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+/// Holds DIR for one coupler at a time. Throws InputError when it cannot be had.
+class FolderLock {
+ public:
+    explicit FolderLock(const fs::path& folder) {
+        std::error_code error;
+        fs::create_directories(folder, error);
+        if (error)
+            throw common::InputError(
+                fmt::format("{}: cannot create the folder: {}", folder.string(), error.message()));
+        file_ = ::open((folder / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+        if (file_ < 0)
+            throw common::InputError(
+                fmt::format("{}: cannot write here: {}", folder.string(), std::strerror(errno)));
+        if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
+            ::close(file_);
+            throw common::InputError(fmt::format("{}: another chain is running here", folder.string()));
+        }
+    }
+    ~FolderLock() { ::close(file_); }
+    FolderLock(const FolderLock&) = delete;
+    FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+    int file_ = -1;
+};
+
+/// Tells one writing of a file from the next: it is replaced by renaming, so inode or time changes.
+struct FileVersion {
+    ino_t inode = 0;
+    time_t seconds = 0;
+    long nanoseconds = 0;
+    bool operator==(const FileVersion&) const = default;
+};
+
+FileVersion version_of(const fs::path& path) {
+    struct stat facts {};
+    if (::stat(path.c_str(), &facts) != 0) return {};
+    return {facts.st_ino, facts.st_mtim.tv_sec, facts.st_mtim.tv_nsec};
+}
+
+/// One stage of a running chain.
+struct RunningStage {
+    StagePlace place;
+    fs::path folder;
+    common::ChainStage& record;
+    StageProgress progress;
+    FileVersion run_record_before;
+    std::unique_ptr<StageProcess> process;  // empty until started
+    std::string last_message;
+    bool was_told_to_stop = false;
+
+    bool runs() const { return process && !process->has_ended(); }
+    /// True once run.json is of this run: a follower that looked earlier could take an older run for this
+    /// one.
+    bool shows_itself() const {
+        const FileVersion now = version_of(folder / "run.json");
+        return now != FileVersion{} && now != run_record_before;
+    }
+};
+
+class Chain {
+ public:
+    Chain(const Command& command, const std::vector<StagePlace>& places, common::TimeSection time);
+    int run();
+
+ private:
+    void start_those_ready();
+    void poll();
+    RunningStage* find_failed();
+    void note_ending(RunningStage& stage);
+    bool is_over() const;
+    void end_all(int signal);
+    int fail(const RunningStage& cause);
+    int interrupt();
+    void write_record(const std::string& status, const std::string& message = {});
+    std::vector<std::string> lines();
+
+    const Command& command_;
+    common::ChainRecord record_;
+    std::list<RunningStage> stages_;
+    Board board_;
+    Clock::time_point begun_ = Clock::now();
+};
+
+Chain::Chain(const Command& command, const std::vector<StagePlace>& places, common::TimeSection time)
+    : command_(command), board_(command.quiet) {
+    record_.scene = fs::absolute(command.scene).string();
+    if (!command.wires.empty()) record_.wires = fs::absolute(command.wires).string();
+    record_.overrides = command.overrides;
+    record_.stages.resize(places.size());  // not resized again: stages_ refers into it
+    const fs::path programs = program_folder();
+    fs::path upstream;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const StagePlace& place = places[i];
+        const fs::path folder = command.folder / place.folder;
+        std::vector<std::string> words{(programs / place.name).string(),
+                                       "run",
+                                       command.scene.string(),
+                                       "--out",
+                                       folder.string(),
+                                       "--quiet"};
+        if (!place.upstream_option.empty())
+            words.insert(words.end(), {place.upstream_option, upstream.string(), "--follow"});
+        if (place.name == "dem" && !command.wires.empty())
+            words.insert(words.end(), {"--wires", command.wires.string()});
+        if (command.threads > 1) words.insert(words.end(), {"--threads", std::to_string(command.threads)});
+        if (command.resume) words.emplace_back("--resume");
+        for (const auto& word : override_words(command)) words.push_back(word);
+        record_.stages[i].name = place.name;
+        record_.stages[i].folder = place.folder;
+        record_.stages[i].command = words;
+        stages_.push_back({.place = place,
+                           .folder = folder,
+                           .record = record_.stages[i],
+                           .progress = StageProgress(place.name, folder, time),
+                           .run_record_before = version_of(folder / "run.json"),
+                           .process = nullptr,
+                           .last_message = {}});
+        upstream = folder;
+    }
+}
+
+int Chain::run() {
+    using namespace std::chrono_literals;
+    write_record("running");
+    try {
+        while (!is_over()) {
+            common::check_for_interrupt();
+            start_those_ready();
+            poll();
+            if (find_failed() != nullptr) {
+                // A stage whose upstream failed fails too, perhaps first to be seen: give the cause time to
+                // show.
+                std::this_thread::sleep_for(300ms);
+                poll();
+                common::check_for_interrupt();
+                return fail(*find_failed());
+            }
+            if (board_.is_due()) board_.show(lines());
+            std::this_thread::sleep_for(20ms);
+        }
+    } catch (const common::Interrupted&) {
+        return interrupt();
+    }
+    board_.finish(lines());
+    write_record("done");
+    return common::exit_done;
+}
+
+void Chain::start_those_ready() {
+    const RunningStage* before = nullptr;
+    for (auto& stage : stages_) {
+        const bool is_ready = before == nullptr ||
+                              (before->process && (before->process->has_ended() || before->shows_itself()));
+        if (!stage.process && is_ready) {
+            stage.process = std::make_unique<StageProcess>(stage.record.command);
+            stage.record.status = "running";
+            write_record("running");
+        }
+        before = &stage;
+    }
+}
+
+void Chain::poll() {
+    for (auto& stage : stages_) {
+        if (!stage.runs()) continue;
+        stage.process->poll();
+        const bool has_ended = stage.process->has_ended();
+        for (const auto& message : stage.process->take_messages()) {
+            stage.last_message = message;
+            // The message a stage ends with is reported with its ending.
+            if (!has_ended) board_.say(message);
+        }
+        if (has_ended) note_ending(stage);
+    }
+}
+
+void Chain::note_ending(RunningStage& stage) {
+    const Ending& ending = stage.process->ending();
+    stage.record.exit_status = ending.status;
+    stage.record.signal = ending.signal;
+    stage.record.wall_time = ending.wall_seconds;
+    stage.record.cpu_time = ending.cpu_seconds;
+    stage.record.peak_memory = ending.peak_memory;
+    if (ending.is_done())
+        stage.record.status = stage.shows_itself() ? "done" : "unchanged";
+    else
+        stage.record.status = stage.was_told_to_stop ? "stopped" : "failed";
+    const std::string prefix = stage.place.name + ": ";
+    if (!ending.is_done())
+        stage.record.message = stage.last_message.starts_with(prefix)
+                                   ? stage.last_message.substr(prefix.size())
+                                   : stage.last_message;
+    write_record("running");
+}
+
+RunningStage* Chain::find_failed() {
+    for (auto& stage : stages_)
+        if (stage.record.status == "failed") return &stage;
+    return nullptr;
+}
+
+bool Chain::is_over() const {
+    for (const auto& stage : stages_)
+        if (!stage.process || !stage.process->has_ended()) return false;
+    return true;
+}
+
+void Chain::end_all(int signal) {
+    using namespace std::chrono_literals;
+    constexpr auto patience = 60s;  // a stage stops after its current step
+    for (auto& stage : stages_) {
+        stage.was_told_to_stop = true;
+        if (stage.runs()) stage.process->send(signal);
+    }
+    const auto asked = Clock::now();
+    const auto any_runs = [&] {
+        for (const auto& stage : stages_)
+            if (stage.runs()) return true;
+        return false;
+    };
+    while (any_runs()) {
+        if (Clock::now() - asked > patience)
+            for (auto& stage : stages_)
+                if (stage.runs()) stage.process->send(SIGKILL);
+        std::this_thread::sleep_for(20ms);
+        poll();
+    }
+}
+
+int Chain::fail(const RunningStage& cause) {
+    end_all(SIGTERM);
+    const std::string how = cause.process->ending().describe();
+    const std::string why =
+        cause.record.message.empty() ? how : fmt::format("{}: {}", how, cause.record.message);
+    board_.finish(lines());
+    board_.say(
+        fmt::format("coupler: {} failed, {}; the other stages were stopped, finished windows are kept in {}",
+                    cause.place.name, why, command_.folder.string()));
+    write_record("failed", fmt::format("{} failed: {}", cause.place.name, why));
+    return cause.record.exit_status == common::exit_bad_input ? common::exit_bad_input : common::exit_failed;
+}
+
+int Chain::interrupt() {
+    end_all(SIGINT);
+    for (auto& stage : stages_)
+        if (stage.record.status == "stopped") stage.record.status = "interrupted";
+    board_.finish(lines());
+    board_.say(
+        fmt::format("coupler: interrupted; finished windows are kept in {}, --resume goes on from them",
+                    command_.folder.string()));
+    write_record("interrupted");
+    return common::exit_interrupted;
+}
+
+void Chain::write_record(const std::string& status, const std::string& message) {
+    record_.status = status;
+    record_.message = message;
+    record_.wall_time = std::chrono::duration<double>(Clock::now() - begun_).count();
+    common::write_chain_record(command_.folder, record_);
+}
+
+std::vector<std::string> Chain::lines() {
+    std::vector<std::string> lines;
+    for (auto& stage : stages_) {
+        std::string text;
+        if (stage.process && (stage.shows_itself() || stage.record.status == "unchanged")) {
+            stage.progress.look();
+            text = stage.progress.describe();
+        }
+        if (stage.process && stage.process->has_ended())
+            text += fmt::format("{}{:.1f} s, {}", text.empty() ? "" : ", ", stage.record.wall_time,
+                                memory_text(stage.record.peak_memory));
+        lines.push_back(fmt::format("{:<10}  {:<11}  {}", stage.place.name, stage.record.status, text));
+    }
+    return lines;
+}
+
+}  // namespace
+
+int run_chain(const Command& command) {
+    const auto stages = stages_of(command);
+    check_scene(command, stages);
+    const auto time = common::read_time(common::SceneFile::read(command.scene, command.overrides));
+    const FolderLock lock(command.folder);
+    return Chain(command, stages, time).run();
+}
+
+int show_status(const fs::path& folder) {
+    const auto record = common::read_chain_record(folder);
+    fmt::print("{}: {}{}{}, {:.1f} s\n", folder.string(), record.status, record.message.empty() ? "" : ": ",
+               record.message, record.wall_time);
+    fmt::print("scene {}{}{}\n", record.scene, record.wires.empty() ? "" : ", layout ", record.wires);
+    const auto time = common::read_time(common::SceneFile::read(record.scene, record.overrides));
+    for (const auto& stage : record.stages) {
+        StageProgress progress(stage.name, folder / stage.folder, time);
+        progress.look();
+        const auto& summary = progress.summary();
+        fmt::print("{:<10}  {:<11}  {}\n", stage.name, stage.status, progress.describe());
+        if (!summary) continue;
+        fmt::print("            {} windows, {:.1f} s, {:.1f} s of processor time, {}\n", summary->windows,
+                   summary->wall_time, summary->cpu_time, memory_text(summary->peak_memory));
+        for (const auto& invariant : summary->invariants)
+            fmt::print(
+                "            {} {:.3g} {}{}\n", invariant.name, invariant.value, invariant.unit,
+                common::holds(invariant) ? "" : fmt::format(", out of its bound {:.3g}", invariant.bound));
+    }
+    return common::exit_done;
+}
+
+}  // namespace coupler
