@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <numeric>
 
@@ -35,29 +36,47 @@ class Handle {
     Close close_;
 };
 
-void silence_library_messages() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+void silence_library_messages() {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 template <class T>
 hid_t memory_type();
 template <>
-hid_t memory_type<double>() { return H5T_NATIVE_DOUBLE; }
+hid_t memory_type<double>() {
+    return H5T_NATIVE_DOUBLE;
+}
 template <>
-hid_t memory_type<float>() { return H5T_NATIVE_FLOAT; }
+hid_t memory_type<float>() {
+    return H5T_NATIVE_FLOAT;
+}
 template <>
-hid_t memory_type<std::int32_t>() { return H5T_NATIVE_INT32; }
+hid_t memory_type<std::int32_t>() {
+    return H5T_NATIVE_INT32;
+}
 template <>
-hid_t memory_type<std::uint64_t>() { return H5T_NATIVE_UINT64; }
+hid_t memory_type<std::uint64_t>() {
+    return H5T_NATIVE_UINT64;
+}
 
 template <class T>
 hid_t stored_type();
 template <>
-hid_t stored_type<double>() { return H5T_IEEE_F64LE; }
+hid_t stored_type<double>() {
+    return H5T_IEEE_F64LE;
+}
 template <>
-hid_t stored_type<float>() { return H5T_IEEE_F32LE; }
+hid_t stored_type<float>() {
+    return H5T_IEEE_F32LE;
+}
 template <>
-hid_t stored_type<std::int32_t>() { return H5T_STD_I32LE; }
+hid_t stored_type<std::int32_t>() {
+    return H5T_STD_I32LE;
+}
 template <>
-hid_t stored_type<std::uint64_t>() { return H5T_STD_U64LE; }
+hid_t stored_type<std::uint64_t>() {
+    return H5T_STD_U64LE;
+}
 
 // ---------------------------------------------------------------- writing
 
@@ -69,7 +88,8 @@ void write_attribute(hid_t object, const std::string& name, const Attribute& val
     Handle space(H5Screate(H5S_SCALAR), H5Sclose);
     const auto write = [&](hid_t stored, hid_t memory, const void* data) {
         Handle attribute(H5Acreate2(object, name.c_str(), stored, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-        require_built(attribute.is_valid() && H5Awrite(attribute, memory, data) >= 0, path, "attribute " + name);
+        require_built(attribute.is_valid() && H5Awrite(attribute, memory, data) >= 0, path,
+                      "attribute " + name);
     };
     if (const auto* text = std::get_if<std::string>(&value)) {
         Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
@@ -87,8 +107,8 @@ void write_dataset(hid_t file, const std::string& name, const Dataset& dataset, 
     const std::size_t expected =
         std::accumulate(dataset.shape.begin(), dataset.shape.end(), std::size_t{1}, std::multiplies<>());
     if (expected != dataset.size())
-        throw RunError(fmt::format("{}: dataset {} has {} values for shape {}", path.string(), name, dataset.size(),
-                                   fmt::join(dataset.shape, " x ")));
+        throw RunError(fmt::format("{}: dataset {} has {} values for shape {}", path.string(), name,
+                                   dataset.size(), fmt::join(dataset.shape, " x ")));
     const std::vector<hsize_t> extent(dataset.shape.begin(), dataset.shape.end());
     Handle space(extent.empty() ? H5Screate(H5S_SCALAR)
                                 : H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
@@ -104,7 +124,8 @@ void write_dataset(hid_t file, const std::string& name, const Dataset& dataset, 
     }
     std::visit(
         [&]<class T>(const std::vector<T>& values) {
-            Handle set(H5Dcreate2(file, name.c_str(), stored_type<T>(), space, links, creation, H5P_DEFAULT), H5Dclose);
+            Handle set(H5Dcreate2(file, name.c_str(), stored_type<T>(), space, links, creation, H5P_DEFAULT),
+                       H5Dclose);
             require_built(set.is_valid(), path, "dataset " + name);
             if (!values.empty())
                 require_built(
@@ -114,6 +135,53 @@ void write_dataset(hid_t file, const std::string& name, const Dataset& dataset, 
         },
         dataset.values);
 }
+
+/// Keeps the memory of an in-memory HDF5 file after it was closed. (H5Fget_file_image would give the bytes of
+/// the open file, whose superblock is marked as being written.)
+class MemoryImage {
+ public:
+    explicit MemoryImage(hid_t access) {
+        constexpr std::size_t increment = 1 << 20;
+        H5Pset_fapl_core(access, increment, false);
+        H5FD_file_image_callbacks_t callbacks{};
+        callbacks.image_malloc = [](std::size_t size, H5FD_file_image_op_t, void*) {
+            return std::malloc(size);
+        };
+        callbacks.image_memcpy = [](void* to, const void* from, std::size_t size, H5FD_file_image_op_t,
+                                    void*) { return std::memcpy(to, from, size); };
+        callbacks.image_realloc = [](void* memory, std::size_t size, H5FD_file_image_op_t, void*) {
+            return std::realloc(memory, size);
+        };
+        callbacks.image_free = [](void* memory, H5FD_file_image_op_t operation, void* self) -> herr_t {
+            if (operation == H5FD_FILE_IMAGE_OP_FILE_CLOSE)
+                static_cast<MemoryImage*>(self)->memory_ = memory;
+            else
+                std::free(memory);
+            return 0;
+        };
+        callbacks.udata_copy = [](void* self) { return self; };
+        callbacks.udata_free = [](void*) -> herr_t { return 0; };
+        callbacks.udata = this;
+        H5Pset_file_image_callbacks(access, &callbacks);
+    }
+    MemoryImage(const MemoryImage&) = delete;
+    MemoryImage& operator=(const MemoryImage&) = delete;
+    ~MemoryImage() { std::free(memory_); }
+
+    /// Notes the size of the flushed file; call it before closing.
+    bool measure(hid_t file) {
+        const ssize_t size =
+            H5Fget_file_image(file, nullptr, 0);  // not H5Fget_filesize: that counts spare memory
+        size_ = static_cast<std::size_t>(std::max<ssize_t>(size, 0));
+        return size > 0;
+    }
+    /// The bytes, once the file is closed.
+    std::string_view bytes() const { return {static_cast<const char*>(memory_), size_}; }
+
+ private:
+    void* memory_ = nullptr;
+    std::size_t size_ = 0;
+};
 
 /// A temporary file beside `path` that is removed unless it was renamed into place.
 class TemporaryFile {
@@ -163,7 +231,8 @@ Attribute read_attribute(hid_t object, const std::string& name, const fs::path& 
         case H5T_STRING: {
             if (H5Tis_variable_str(type) > 0) {
                 char* text = nullptr;
-                if (H5Aread(attribute, type, &text) < 0 || text == nullptr) refuse(path, "cannot read attribute " + name);
+                if (H5Aread(attribute, type, &text) < 0 || text == nullptr)
+                    refuse(path, "cannot read attribute " + name);
                 std::string value(text);
                 H5free_memory(text);
                 return value;
@@ -175,12 +244,14 @@ Attribute read_attribute(hid_t object, const std::string& name, const fs::path& 
         }
         case H5T_FLOAT: {
             double value = 0;
-            if (H5Aread(attribute, H5T_NATIVE_DOUBLE, &value) < 0) refuse(path, "cannot read attribute " + name);
+            if (H5Aread(attribute, H5T_NATIVE_DOUBLE, &value) < 0)
+                refuse(path, "cannot read attribute " + name);
             return value;
         }
         case H5T_INTEGER: {
             std::int64_t value = 0;
-            if (H5Aread(attribute, H5T_NATIVE_INT64, &value) < 0) refuse(path, "cannot read attribute " + name);
+            if (H5Aread(attribute, H5T_NATIVE_INT64, &value) < 0)
+                refuse(path, "cannot read attribute " + name);
             return value;
         }
         default:
@@ -234,7 +305,8 @@ struct Listing {
 };
 
 herr_t list_dataset(hid_t, const char* name, const H5O_info_t* info, void* listing) {
-    if (info->type == H5O_TYPE_DATASET) static_cast<Listing*>(listing)->datasets.push_back(std::string("/") + name);
+    if (info->type == H5O_TYPE_DATASET)
+        static_cast<Listing*>(listing)->datasets.push_back(std::string("/") + name);
     return 0;
 }
 
@@ -285,7 +357,8 @@ const Dataset& DataFile::at(const std::string& dataset) const {
 
 namespace {
 template <class T>
-const T& attribute_as(const std::map<std::string, Attribute>& attributes, const std::string& name, const char* kind) {
+const T& attribute_as(const std::map<std::string, Attribute>& attributes, const std::string& name,
+                      const char* kind) {
     const auto found = attributes.find(name);
     if (found == attributes.end()) throw InputError("attribute " + name + " is missing");
     const T* value = std::get_if<T>(&found->second);
@@ -306,23 +379,20 @@ std::int64_t DataFile::integer(const std::string& attribute) const {
 
 void write_data_file(const fs::path& path, const DataFile& content) {
     silence_library_messages();
-    // The file is built in memory and written by our own checked calls: on a full disk the library's flush and
-    // close may report success.
+    // The file is built in memory and written by our own checked calls: on a full disk the library's flush
+    // and close may report success.
     Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-    constexpr std::size_t memory_increment = 1 << 20;
-    H5Pset_fapl_core(access, memory_increment, false);
-    Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
-    require_built(file.is_valid(), path, "the file");
-    for (const auto& [name, value] : content.attributes) write_attribute(file, name, value, path);
-    for (const auto& [name, dataset] : content.datasets) write_dataset(file, name, dataset, path);
-    require_built(H5Fflush(file, H5F_SCOPE_GLOBAL) >= 0, path, "the file");
-    const ssize_t size = H5Fget_file_image(file, nullptr, 0);
-    require_built(size > 0, path, "the file");
-    std::string image(static_cast<std::size_t>(size), '\0');
-    require_built(H5Fget_file_image(file, image.data(), image.size()) == size, path, "the file");
-    write_file(path, image);
+    MemoryImage image(access);
+    {
+        Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
+        require_built(file.is_valid(), path, "the file");
+        for (const auto& [name, value] : content.attributes) write_attribute(file, name, value, path);
+        for (const auto& [name, dataset] : content.datasets) write_dataset(file, name, dataset, path);
+        require_built(H5Fflush(file, H5F_SCOPE_GLOBAL) >= 0 && image.measure(file), path, "the file");
+    }
+    write_file(path, image.bytes());
 }
 
 DataFile read_data_file(const fs::path& path) {
@@ -345,10 +415,11 @@ DataFile read_data_file(const fs::path& path) {
     return content;
 }
 
-void write_file(const fs::path& path, const std::string& content) {
+void write_file(const fs::path& path, std::string_view content) {
     TemporaryFile temporary(path);
     const int descriptor = ::open(temporary.name().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-    if (descriptor < 0) throw RunError(fmt::format("{}: cannot create: {}", path.string(), std::strerror(errno)));
+    if (descriptor < 0)
+        throw RunError(fmt::format("{}: cannot create: {}", path.string(), std::strerror(errno)));
     std::size_t written = 0;
     while (written < content.size()) {
         const ssize_t count = ::write(descriptor, content.data() + written, content.size() - written);
@@ -360,7 +431,8 @@ void write_file(const fs::path& path, const std::string& content) {
         }
         written += static_cast<std::size_t>(count);
     }
-    if (::close(descriptor) != 0) throw RunError(fmt::format("{}: cannot write: {}", path.string(), std::strerror(errno)));
+    if (::close(descriptor) != 0)
+        throw RunError(fmt::format("{}: cannot write: {}", path.string(), std::strerror(errno)));
     temporary.publish();
 }
 

@@ -1,7 +1,8 @@
 /// HDF5 files as plain values: attributes and datasets, written atomically, checked when read.
 ///
-/// The only place that includes HDF5. Datasets are chunked as one piece with Fletcher32, so that a flipped bit is
-/// noticed; the file is written under a temporary name, flushed, fsynced and renamed, so that a reader never sees half.
+/// The only place that includes HDF5. Datasets are chunked as one piece with Fletcher32, so that a flipped
+/// bit is noticed; the file is written under a temporary name, flushed, fsynced and renamed, so that a reader
+/// never sees half.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +11,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -19,12 +21,15 @@ namespace common {
 struct Dataset {
     std::string unit;
     std::vector<std::size_t> shape;
-    std::variant<std::vector<double>, std::vector<float>, std::vector<std::int32_t>, std::vector<std::uint64_t>> values;
+    std::variant<std::vector<double>, std::vector<float>, std::vector<std::int32_t>,
+                 std::vector<std::uint64_t>>
+        values;
 
     std::size_t size() const;
     /// The values as double, whatever they are stored as.
     std::vector<double> as_double() const;
-    /// The values as they are stored; throws std::bad_variant_access on another type (read_window checks types).
+    /// The values as they are stored; throws std::bad_variant_access on another type (read_window checks
+    /// types).
     const std::vector<float>& floats() const { return std::get<std::vector<float>>(values); }
     const std::vector<double>& doubles() const { return std::get<std::vector<double>>(values); }
     const std::vector<std::int32_t>& integers() const { return std::get<std::vector<std::int32_t>>(values); }
@@ -54,13 +59,15 @@ struct DataFile {
     std::int64_t integer(const std::string& attribute) const;
 };
 
-/// Atomic: temporary name in the same folder, close, fsync, rename, fsync the folder. Throws RunError (disk full, ...).
+/// Atomic: temporary name in the same folder, close, fsync, rename, fsync the folder. Throws RunError (disk
+/// full, ...).
 void write_data_file(const std::filesystem::path& path, const DataFile& file);
 
-/// Reads all of it. Throws InputError that names the file and the dataset at fault (truncated, checksum, type).
+/// Reads all of it. Throws InputError that names the file and the dataset at fault (truncated, checksum,
+/// type).
 DataFile read_data_file(const std::filesystem::path& path);
 
 /// Atomic replacement of any file by `content` (run.json, .xdmf, an HDF5 image). Throws RunError.
-void write_file(const std::filesystem::path& path, const std::string& content);
+void write_file(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace common

@@ -11,7 +11,9 @@ namespace common {
 
 namespace {
 std::atomic<bool> interrupt_raised{false};
-extern "C" void raise_interrupt(int) { interrupt_raised.store(true, std::memory_order_relaxed); }
+extern "C" void raise_interrupt(int) {
+    interrupt_raised.store(true, std::memory_order_relaxed);
+}
 }  // namespace
 
 int run_guarded(const std::string& program, const std::function<int()>& body) {
@@ -21,7 +23,8 @@ int run_guarded(const std::string& program, const std::function<int()>& body) {
         fmt::print(stderr, "{}: {}\n", program, error.what());
         return exit_bad_input;
     } catch (const Interrupted&) {
-        fmt::print(stderr, "{}: interrupted; finished windows are kept, --resume goes on from them\n", program);
+        fmt::print(stderr, "{}: interrupted; finished windows are kept, --resume goes on from them\n",
+                   program);
         return exit_interrupted;
     } catch (const std::bad_alloc&) {
         fmt::print(stderr, "{}: out of memory\n", program);

@@ -15,19 +15,30 @@ struct RunIdentity {
     std::string stage, scene_digest, input_digest;
 };
 
+/// Holds DIR/.lock while it lives.
+class FolderLock {
+ public:
+    /// Creates the folder when needed. Throws InputError when it cannot be written or another run holds it.
+    explicit FolderLock(const std::filesystem::path& folder);
+    ~FolderLock();
+    FolderLock(const FolderLock&) = delete;
+    FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+    int descriptor_;
+};
+
 /// Opens DIR for one run at a time (a lock is held while it lives).
 ///
 /// - a finished run with the same digests: nothing_to_do;
 /// - `resume` and a state.h5 with the same digests: go_on, `state()` holds it; other digests: InputError;
-/// - else start: windows, state and geometry of an earlier run are removed (only files named in the contract).
+/// - else start: windows, state and geometry of an earlier run are removed (only files named in the
+/// contract).
 class OutputFolder {
  public:
     enum class Start { fresh, go_on, nothing_to_do };
 
     OutputFolder(std::filesystem::path folder, RunIdentity identity, bool resume);
-    ~OutputFolder();
-    OutputFolder(const OutputFolder&) = delete;
-    OutputFolder& operator=(const OutputFolder&) = delete;
 
     Start start() const { return start_; }
     /// The saved state when start() is go_on.
@@ -49,7 +60,7 @@ class OutputFolder {
     Start start_ = Start::fresh;
     std::optional<DataFile> state_;
     std::int64_t next_window_ = 0;
-    int lock_ = -1;
+    FolderLock lock_;
 };
 
 }  // namespace common

@@ -7,7 +7,8 @@
 
 namespace common {
 
-/// Sets the number of OpenMP threads and passive waiting (spinning is ruinous on shared cores).
+/// Sets the number of OpenMP threads. Call it first in main: with several threads the program may start
+/// itself anew with passive waiting, because spinning is ruinous on shared cores.
 void use_threads(int count);
 
 /// body(i) for i in [0, count), statically shared out; each i must write only what belongs to it.
@@ -22,7 +23,8 @@ void parallel_for(std::size_t count, std::size_t serial_below, const Body& body)
     for (std::size_t i = 0; i < count; ++i) body(i);
 }
 
-/// Sum of term(i) over [0, count) in blocks of fixed size, added in order: the same bits for any number of threads.
+/// Sum of term(i) over [0, count) in blocks of fixed size, added in order: the same bits for any number of
+/// threads.
 template <class Term>
 double ordered_sum(std::size_t count, const Term& term) {
     constexpr std::size_t block = 1024;

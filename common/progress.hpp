@@ -11,7 +11,8 @@ class Progress {
  public:
     Progress(std::string stage, double begin, double end, bool quiet);
     ~Progress();
-    /// Cheap when called often: looks at the clock and returns. `detail` is a short phrase ("12034 particles").
+    /// Cheap when called often: looks at the clock and returns. `detail` is a short phrase ("12034
+    /// particles").
     void update(double time, const std::string& detail = {});
     /// A line of its own, above the progress line.
     void say(const std::string& message);

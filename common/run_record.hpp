@@ -66,7 +66,9 @@ class RunRecord {
 class PhaseTimer {
  public:
     explicit PhaseTimer(double& seconds) : seconds_(seconds) {}
-    ~PhaseTimer() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count(); }
+    ~PhaseTimer() {
+        seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
+    }
     PhaseTimer(const PhaseTimer&) = delete;
     PhaseTimer& operator=(const PhaseTimer&) = delete;
 

@@ -25,17 +25,19 @@ struct Declaration {
 struct SceneData {
     fs::path path;
     toml::table tree;
-    std::map<std::string, std::string> overridden;                // dotted key -> the --set word
-    std::vector<Declaration> declarations;                        // in order
-    std::map<std::string, std::set<std::string>> known;           // section -> keys declared
-    std::map<std::string, const toml::table*> sections_read;      // sections whose keys are checked by finish()
-    std::vector<std::pair<std::pair<std::uint32_t, std::uint32_t>, std::string>> problems;  // (line, column), text
-    std::map<std::string, std::string> file_digests;              // key -> digest of the file it names
+    std::map<std::string, std::string> overridden;            // dotted key -> the --set word
+    std::vector<Declaration> declarations;                    // in order
+    std::map<std::string, std::set<std::string>> known;       // section -> keys declared
+    std::map<std::string, const toml::table*> sections_read;  // sections whose keys are checked by finish()
+    std::vector<std::pair<std::pair<std::uint32_t, std::uint32_t>, std::string>>
+        problems;                                     // (line, column), text
+    std::map<std::string, std::string> file_digests;  // key -> digest of the file it names
 
     std::string where(const std::string& dotted, const toml::node* node) const {
         if (const auto set = overridden.find(dotted); set != overridden.end()) return "--set " + set->second;
         if (node != nullptr && node->source().begin.line > 0)
-            return fmt::format("{}:{}:{}", path.string(), node->source().begin.line, node->source().begin.column);
+            return fmt::format("{}:{}:{}", path.string(), node->source().begin.line,
+                               node->source().begin.column);
         return path.string();
     }
     void note(const std::string& dotted, const toml::node* node, const std::string& message) {
@@ -48,15 +50,16 @@ struct SceneData {
 namespace {
 
 /// The sections of the contract: any other top-level table is a mistake.
-const std::vector<std::string> known_sections = {"time",  "flume", "waves",   "gauges",  "boussinesq", "cmps",
-                                                 "dem",   "wires", "effects", "initial"};
+const std::vector<std::string> known_sections = {"time", "flume", "waves", "gauges",  "boussinesq",
+                                                 "cmps", "dem",   "wires", "effects", "initial"};
 const std::vector<std::string> known_root_keys = {"title", "accuracy"};
 
 /// Effects of all stages: a stage reads its own and lets the others' stand.
 const std::vector<std::string> known_effects = {
-    "dispersion", "breaking", "shoreline", "friction",                                        // boussinesq
-    "viscosity", "turbulence", "overflow", "overtopping", "start_at_arrival",                 // cmps
-    "fluid_force", "wires", "wire_breaking", "tangential_history", "sleeping", "still_windows"};  // dem
+    "dispersion",   "breaking",   "shoreline",     "friction",                                // boussinesq
+    "viscosity",    "turbulence", "overflow",      "overtopping",        "start_at_arrival",  // cmps
+    "fluid_force",  "wires",      "wire_breaking", "tangential_history", "sleeping",
+    "still_windows"};  // dem
 
 std::string dotted_name(const std::string& section, std::string_view key) {
     if (section.empty()) return std::string(key);
@@ -103,8 +106,10 @@ std::string describe(const Range& range) {
     if (has_lowest && has_highest)
         return fmt::format("a number {} {} and {} {}", range.lowest_is_open ? "above" : "from", range.lowest,
                            range.highest_is_open ? "below" : "up to", range.highest);
-    if (has_lowest) return fmt::format("a number {} {}", range.lowest_is_open ? "above" : "of at least", range.lowest);
-    if (has_highest) return fmt::format("a number {} {}", range.highest_is_open ? "below" : "of at most", range.highest);
+    if (has_lowest)
+        return fmt::format("a number {} {}", range.lowest_is_open ? "above" : "of at least", range.lowest);
+    if (has_highest)
+        return fmt::format("a number {} {}", range.highest_is_open ? "below" : "of at most", range.highest);
     return "a number";
 }
 
@@ -166,11 +171,15 @@ class Reading {
     }
     const toml::node* node() const { return node_; }
     void mistake(const std::string& message, const toml::node* at = nullptr) {
-        scene_.note(dotted_name(section_, key_), at != nullptr ? at : node_ != nullptr ? node_ : table_, message);
+        scene_.note(dotted_name(section_, key_),
+                    at != nullptr      ? at
+                    : node_ != nullptr ? node_
+                                       : table_,
+                    message);
     }
     void missing(const std::string& expected) {
-        mistake(fmt::format("required key is missing: {} ({}{}{})", about_, expected, unit_.empty() || unit_ == "-" ? "" : ", ",
-                            unit_ == "-" ? "" : unit_));
+        mistake(fmt::format("required key is missing: {} ({}{}{})", about_, expected,
+                            unit_.empty() || unit_ == "-" ? "" : ", ", unit_ == "-" ? "" : unit_));
     }
     void expected(const std::string& what, const toml::node& got) {
         mistake(fmt::format("expected {}{}{}, got {}", what, unit_.empty() || unit_ == "-" ? "" : " in ",
@@ -276,7 +285,8 @@ bool Section::boolean(std::string_view key, std::string_view about, std::optiona
     return value;
 }
 
-std::string Section::text(std::string_view key, std::string_view about, std::optional<std::string> fallback) const {
+std::string Section::text(std::string_view key, std::string_view about,
+                          std::optional<std::string> fallback) const {
     Reading reading(*scene_, name_, node_, key, "", about);
     std::string value = fallback.value_or("");
     if (const auto* node = reading.node()) {
@@ -291,7 +301,8 @@ std::string Section::text(std::string_view key, std::string_view about, std::opt
     return value;
 }
 
-std::string Section::choice(std::string_view key, std::string_view about, const std::vector<std::string>& words,
+std::string Section::choice(std::string_view key, std::string_view about,
+                            const std::vector<std::string>& words,
                             std::optional<std::string> fallback) const {
     Reading reading(*scene_, name_, node_, key, "", fmt::format("{}: {}", about, fmt::join(words, " | ")));
     std::string value = fallback.value_or(words.front());
@@ -300,7 +311,8 @@ std::string Section::choice(std::string_view key, std::string_view about, const 
         if (given != nullptr && std::find(words.begin(), words.end(), given->get()) != words.end())
             value = given->get();
         else
-            reading.mistake(fmt::format("expected one of {}, got {}{}", fmt::join(words, ", "), kind_of(*node),
+            reading.mistake(fmt::format("expected one of {}, got {}{}", fmt::join(words, ", "),
+                                        kind_of(*node),
                                         given != nullptr ? suggestion(given->get(), words) : ""));
     } else if (!fallback) {
         reading.missing(fmt::format("one of {}", fmt::join(words, ", ")));
@@ -355,9 +367,9 @@ std::vector<double> Section::numbers(std::string_view key, std::string_view unit
     return values;
 }
 
-std::vector<std::vector<double>> Section::rows(std::string_view key, std::string_view unit, std::string_view about,
-                                               std::size_t width,
-                                               std::optional<std::vector<std::vector<double>>> fallback) const {
+std::vector<std::vector<double>> Section::rows(
+    std::string_view key, std::string_view unit, std::string_view about, std::size_t width,
+    std::optional<std::vector<std::vector<double>>> fallback) const {
     Reading reading(*scene_, name_, node_, key, unit, about);
     std::vector<std::vector<double>> values = fallback.value_or(std::vector<std::vector<double>>{});
     if (const auto* node = reading.node())
@@ -380,8 +392,9 @@ std::vector<Point> Section::points(std::string_view key, std::string_view unit, 
     return values;
 }
 
-std::vector<std::vector<Point>> Section::polygons(std::string_view key, std::string_view unit, std::string_view about,
-                                                  std::optional<std::vector<std::vector<Point>>> fallback) const {
+std::vector<std::vector<Point>> Section::polygons(
+    std::string_view key, std::string_view unit, std::string_view about,
+    std::optional<std::vector<std::vector<Point>>> fallback) const {
     Reading reading(*scene_, name_, node_, key, unit, about);
     std::vector<std::vector<Point>> values = fallback.value_or(std::vector<std::vector<Point>>{});
     if (const auto* node = reading.node()) {
@@ -408,7 +421,8 @@ Section Section::table(std::string_view key) const {
     const auto* table = static_cast<const toml::table*>(node_);
     const toml::node* node = table != nullptr ? table->get(key) : nullptr;
     const std::string name = dotted_name(name_, key);
-    if (node != nullptr && !node->is_table()) scene_->note(name, node, "expected a table, got " + kind_of(*node));
+    if (node != nullptr && !node->is_table())
+        scene_->note(name, node, "expected a table, got " + kind_of(*node));
     const toml::table* inner = node != nullptr ? node->as_table() : nullptr;
     scene_->sections_read[name] = inner;
     return Section(scene_, name, inner);
@@ -442,8 +456,10 @@ std::vector<Section> Section::tables(std::string_view key) const {
 std::vector<std::string> Section::keys() const {
     std::vector<std::pair<toml::source_position, std::string>> found;
     if (const auto* table = static_cast<const toml::table*>(node_))
-        for (const auto& [key, value] : *table) found.emplace_back(value.source().begin, std::string(key.str()));
-    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+        for (const auto& [key, value] : *table)
+            found.emplace_back(value.source().begin, std::string(key.str()));
+    std::stable_sort(found.begin(), found.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
     std::vector<std::string> names;
     for (auto& [position, name] : found) {
         scene_->known[name_].insert(name);
@@ -458,7 +474,9 @@ const toml::node* find_node(const void* table, std::string_view key) {
 }
 }  // namespace
 
-bool Section::has(std::string_view key) const { return find_node(node_, key) != nullptr; }
+bool Section::has(std::string_view key) const {
+    return find_node(node_, key) != nullptr;
+}
 bool Section::is_table(std::string_view key) const {
     const auto* node = find_node(node_, key);
     return node != nullptr && node->is_table();
@@ -486,7 +504,8 @@ namespace {
 void apply_override(SceneData& scene, const std::string& word) {
     const auto equals = word.find('=');
     if (equals == std::string::npos || equals == 0)
-        throw InputError(fmt::format("--set {}: expected KEY=VALUE, for instance --set waves.height=0.2", word));
+        throw InputError(
+            fmt::format("--set {}: expected KEY=VALUE, for instance --set waves.height=0.2", word));
     const std::string dotted = word.substr(0, equals), text = word.substr(equals + 1);
     toml::table parsed;
     try {
@@ -496,7 +515,8 @@ void apply_override(SceneData& scene, const std::string& word) {
     }
     toml::table* table = &scene.tree;
     std::size_t from = 0;
-    for (auto dot = dotted.find('.'); dot != std::string::npos; from = dot + 1, dot = dotted.find('.', from)) {
+    for (auto dot = dotted.find('.'); dot != std::string::npos;
+         from = dot + 1, dot = dotted.find('.', from)) {
         const std::string part = dotted.substr(from, dot - from);
         toml::node* inner = table->get(part);
         if (inner == nullptr) {
@@ -504,7 +524,8 @@ void apply_override(SceneData& scene, const std::string& word) {
             inner = table->get(part);
         }
         table = inner->as_table();
-        if (table == nullptr) throw InputError(fmt::format("--set {}: '{}' is not a table", word, dotted.substr(0, dot)));
+        if (table == nullptr)
+            throw InputError(fmt::format("--set {}: '{}' is not a table", word, dotted.substr(0, dot)));
     }
     const std::string key = dotted.substr(from);
     if (key.empty()) throw InputError(fmt::format("--set {}: the key is empty", word));
@@ -521,13 +542,15 @@ SceneFile& SceneFile::operator=(SceneFile&&) noexcept = default;
 
 SceneFile SceneFile::read(const fs::path& path, std::span<const std::string> overrides) {
     std::ifstream stream(path, std::ios::binary);
-    if (!stream || fs::is_directory(path)) throw InputError(fmt::format("{}: cannot read the scene", path.string()));
+    if (!stream || fs::is_directory(path))
+        throw InputError(fmt::format("{}: cannot read the scene", path.string()));
     std::ostringstream text;
     text << stream.rdbuf();
     return parse(text.str(), path.string(), overrides);
 }
 
-SceneFile SceneFile::parse(std::string_view text, const std::string& name, std::span<const std::string> overrides) {
+SceneFile SceneFile::parse(std::string_view text, const std::string& name,
+                           std::span<const std::string> overrides) {
     auto data = std::make_unique<SceneData>();
     data->path = name;
     try {
@@ -545,7 +568,9 @@ SceneFile SceneFile::parse(std::string_view text, const std::string& name, std::
     return SceneFile(std::move(data));
 }
 
-Section SceneFile::root() const { return Section(data_.get(), "", &data_->tree); }
+Section SceneFile::root() const {
+    return Section(data_.get(), "", &data_->tree);
+}
 
 Section SceneFile::section(std::string_view name) const {
     Section section = root();
@@ -563,11 +588,13 @@ Section SceneFile::foreign_section(std::string_view name) const {
     return Section(data_.get(), std::string(name), table);
 }
 
-bool SceneFile::has_section(std::string_view name) const { return data_->tree.at_path(name).is_table(); }
+bool SceneFile::has_section(std::string_view name) const {
+    return data_->tree.at_path(name).is_table();
+}
 
 Accuracy SceneFile::accuracy() const {
-    const std::string word =
-        root().choice("accuracy", "resolution and schemes of every stage", {"draft", "standard", "fine"}, "standard");
+    const std::string word = root().choice("accuracy", "resolution and schemes of every stage",
+                                           {"draft", "standard", "fine"}, "standard");
     return word == "draft" ? Accuracy::draft : word == "fine" ? Accuracy::fine : Accuracy::standard;
 }
 
@@ -600,7 +627,8 @@ void SceneFile::finish() const {
 
 std::vector<SceneValue> SceneFile::values() const {
     std::vector<SceneValue> values;
-    for (const auto& d : data_->declarations) values.push_back({d.section, d.key, d.value, d.unit, d.about, d.is_default});
+    for (const auto& d : data_->declarations)
+        values.push_back({d.section, d.key, d.value, d.unit, d.about, d.is_default});
     return values;
 }
 
@@ -618,12 +646,14 @@ std::string SceneFile::reference() const {
         if (!section.empty()) {
             const auto bracket = section.find('[');
             const std::string name = section.substr(0, bracket);
-            text += bracket == std::string::npos ? fmt::format("\n[{}]\n", name) : fmt::format("\n[[{}]]\n", name);
+            text += bracket == std::string::npos ? fmt::format("\n[{}]\n", name)
+                                                 : fmt::format("\n[[{}]]\n", name);
         }
         for (const auto* d : by_section[section]) {
-            const bool is_plain = !d->key.empty() && std::all_of(d->key.begin(), d->key.end(), [](unsigned char c) {
-                return std::isalnum(c) != 0 || c == '_' || c == '-';
-            });
+            const bool is_plain =
+                !d->key.empty() && std::all_of(d->key.begin(), d->key.end(), [](unsigned char c) {
+                    return std::isalnum(c) != 0 || c == '_' || c == '-';
+                });
             text += fmt::format("{:<40}  # {}{}{}{}\n",
                                 fmt::format("{} = {}", is_plain ? d->key : in_quotes(d->key), d->value),
                                 d->unit.empty() || d->unit == "-" ? "" : d->unit + "; ", d->about,
@@ -646,11 +676,13 @@ std::string SceneFile::digest(std::string_view upstream) const {
     return digest_of(text);
 }
 
-const fs::path& SceneFile::path() const { return data_->path; }
+const fs::path& SceneFile::path() const {
+    return data_->path;
+}
 
 EffectWish read_effect_wish(const SceneFile& scene, std::string_view effect) {
-    const std::string word =
-        scene.section("effects").choice(effect, "whether this effect is simulated", {"auto", "on", "off"}, "auto");
+    const std::string word = scene.section("effects").choice(effect, "whether this effect is simulated",
+                                                             {"auto", "on", "off"}, "auto");
     return word == "on" ? EffectWish::on : word == "off" ? EffectWish::off : EffectWish::automatic;
 }
 

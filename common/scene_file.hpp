@@ -40,9 +40,10 @@ struct SceneData;  // toml tree and what has been declared; only scene_file.cpp 
 
 /// One table of the scene. Cheap to copy; refers to the SceneFile it came from.
 ///
-/// Each read declares a key: `unit` ("m", "s", "-", ...), `about` (one phrase for the reference), the range and the
-/// default; without a default the key is required. On a mistake the problem is noted and the default (or a value
-/// inside the range) comes back, so that reading goes on; SceneFile::finish() throws if there was any.
+/// Each read declares a key: `unit` ("m", "s", "-", ...), `about` (one phrase for the reference), the range
+/// and the default; without a default the key is required. On a mistake the problem is noted and the default
+/// (or a value inside the range) comes back, so that reading goes on; SceneFile::finish() throws if there was
+/// any.
 class Section {
  public:
     double number(std::string_view key, std::string_view unit, std::string_view about, Range range,
@@ -55,29 +56,31 @@ class Section {
     /// One of the listed words.
     std::string choice(std::string_view key, std::string_view about, const std::vector<std::string>& words,
                        std::optional<std::string> fallback = {}) const;
-    /// A file name, taken relative to the scene's folder; must exist when given. Its content enters the digest.
-    /// Empty path: not given (only with `required` false).
+    /// A file name, taken relative to the scene's folder; must exist when given. Its content enters the
+    /// digest. Empty path: not given (only with `required` false).
     std::filesystem::path file(std::string_view key, std::string_view about, bool required) const;
     /// [a, b, ...]; `count` 0 means any length.
     std::vector<double> numbers(std::string_view key, std::string_view unit, std::string_view about,
                                 std::size_t count, Range range,
                                 std::optional<std::vector<double>> fallback = {}) const;
     /// [[a, b, ...], ...] with `width` numbers in each row.
-    std::vector<std::vector<double>> rows(std::string_view key, std::string_view unit, std::string_view about,
-                                          std::size_t width,
-                                          std::optional<std::vector<std::vector<double>>> fallback = {}) const;
+    std::vector<std::vector<double>> rows(
+        std::string_view key, std::string_view unit, std::string_view about, std::size_t width,
+        std::optional<std::vector<std::vector<double>>> fallback = {}) const;
     /// [[x, z], ...]
     std::vector<Point> points(std::string_view key, std::string_view unit, std::string_view about,
                               std::optional<std::vector<Point>> fallback = {}) const;
     /// [[[x, z], ...], ...]; a single polygon [[x, z], ...] is taken as a list of one.
-    std::vector<std::vector<Point>> polygons(std::string_view key, std::string_view unit, std::string_view about,
-                                             std::optional<std::vector<std::vector<Point>>> fallback = {}) const;
+    std::vector<std::vector<Point>> polygons(
+        std::string_view key, std::string_view unit, std::string_view about,
+        std::optional<std::vector<std::vector<Point>>> fallback = {}) const;
 
     /// The inner table `key`; reads of an absent one yield defaults. An inline table works the same way.
     Section table(std::string_view key) const;
     /// [[key]]: an array of tables, possibly empty.
     std::vector<Section> tables(std::string_view key) const;
-    /// Keys present in this table, in file order, for tables with free names such as [gauges]: all count as known.
+    /// Keys present in this table, in file order, for tables with free names such as [gauges]: all count as
+    /// known.
     std::vector<std::string> keys() const;
     /// True where the file (or --set) gives `key`.
     bool has(std::string_view key) const;
@@ -88,8 +91,8 @@ class Section {
     /// True where the value of `key` is text.
     bool is_text(std::string_view key) const;
 
-    /// Notes a mistake about `key` that only the stage can see ("gauge outside the flume"); finish() reports it
-    /// with file, line and key. An empty key means the table itself.
+    /// Notes a mistake about `key` that only the stage can see ("gauge outside the flume"); finish() reports
+    /// it with file, line and key. An empty key means the table itself.
     void problem(std::string_view key, const std::string& message) const;
 
     /// Dotted name of this table ("dem.blocks").
@@ -97,7 +100,8 @@ class Section {
 
  private:
     friend class SceneFile;
-    Section(SceneData* scene, std::string name, const void* node) : scene_(scene), name_(std::move(name)), node_(node) {}
+    Section(SceneData* scene, std::string name, const void* node)
+        : scene_(scene), name_(std::move(name)), node_(node) {}
     SceneData* scene_;
     std::string name_;
     const void* node_;  // toml::table, null when absent
@@ -112,11 +116,12 @@ struct SceneValue {
 /// One scene (or layout) file with its overrides.
 class SceneFile {
  public:
-    /// Reads and parses. `overrides` are KEY=VALUE words of --set (dotted keys). Unknown sections are refused.
-    /// Throws InputError when the file cannot be read or is not TOML.
+    /// Reads and parses. `overrides` are KEY=VALUE words of --set (dotted keys). Unknown sections are
+    /// refused. Throws InputError when the file cannot be read or is not TOML.
     static SceneFile read(const std::filesystem::path& path, std::span<const std::string> overrides = {});
     /// The same from text, for tests and generated scenes; `name` stands for the path in messages.
-    static SceneFile parse(std::string_view text, const std::string& name, std::span<const std::string> overrides = {});
+    static SceneFile parse(std::string_view text, const std::string& name,
+                           std::span<const std::string> overrides = {});
     ~SceneFile();
     SceneFile(SceneFile&&) noexcept;
     SceneFile& operator=(SceneFile&&) noexcept;
@@ -132,14 +137,16 @@ class SceneFile {
     Accuracy accuracy() const;
 
     /// Refuses unknown keys in every section that was read (nearest known name offered) and throws InputError
-    /// with one line per mistake if there was any. Call it when everything has been read, before anything runs.
+    /// with one line per mistake if there was any. Call it when everything has been read, before anything
+    /// runs.
     void finish() const;
 
     /// Every declared key in order of declaration, with the value used.
     std::vector<SceneValue> values() const;
     /// The scene with every default filled in, as TOML with units and phrases: what `check --all` prints.
     std::string reference() const;
-    /// Hexadecimal digest of the values used and of the files named, title left out; `upstream` (a digest) is mixed in.
+    /// Hexadecimal digest of the values used and of the files named, title left out; `upstream` (a digest) is
+    /// mixed in.
     std::string digest(std::string_view upstream = {}) const;
 
     const std::filesystem::path& path() const;

@@ -15,13 +15,14 @@ TimeSection read_time(const SceneFile& scene) {
 std::vector<Point> read_bed(const SceneFile& scene, bool required) {
     const Section flume = scene.section("flume");
     const char* about = "polyline [[x, z], ...] from offshore to shore, z = 0 at still water";
-    const auto bed = required ? flume.points("bed", "m", about)
-                              : flume.points("bed", "m", about, std::vector<Point>{});
+    const auto bed =
+        required ? flume.points("bed", "m", about) : flume.points("bed", "m", about, std::vector<Point>{});
     if (flume.has("bed") && bed.size() < 2) flume.problem("bed", "expected at least two points");
     for (std::size_t i = 1; i < bed.size(); ++i)
         if (bed[i][0] <= bed[i - 1][0]) {
-            flume.problem("bed", fmt::format("x must increase from point to point; point {} has x = {} after {}", i + 1,
-                                             bed[i][0], bed[i - 1][0]));
+            flume.problem(
+                "bed", fmt::format("x must increase from point to point; point {} has x = {} after {}", i + 1,
+                                   bed[i][0], bed[i - 1][0]));
             break;
         }
     return bed;
@@ -30,7 +31,8 @@ std::vector<Point> read_bed(const SceneFile& scene, bool required) {
 double bed_level(const std::vector<Point>& bed, double x) {
     if (x <= bed.front()[0]) return bed.front()[1];
     if (x >= bed.back()[0]) return bed.back()[1];
-    const auto right = std::upper_bound(bed.begin(), bed.end(), x, [](double value, const Point& p) { return value < p[0]; });
+    const auto right = std::upper_bound(bed.begin(), bed.end(), x,
+                                        [](double value, const Point& p) { return value < p[0]; });
     const auto left = right - 1;
     const double share = (x - (*left)[0]) / ((*right)[0] - (*left)[0]);
     return (*left)[1] + share * ((*right)[1] - (*left)[1]);
@@ -48,10 +50,11 @@ std::vector<Gauge> read_gauges(const SceneFile& scene, double default_interval) 
             gauge.x = section.number(name, "m", "gauge at x", Range::any());
         } else {
             const Section entry = section.table(name);
-            const std::string kind = entry.choice("kind", "what the gauge records",
-                                                  {"surface", "pressure", "velocity", "overtopping"}, "surface");
-            gauge.kind = kind == "pressure"   ? Gauge::Kind::pressure
-                         : kind == "velocity" ? Gauge::Kind::velocity
+            const std::string kind =
+                entry.choice("kind", "what the gauge records",
+                             {"surface", "pressure", "velocity", "overtopping"}, "surface");
+            gauge.kind = kind == "pressure"      ? Gauge::Kind::pressure
+                         : kind == "velocity"    ? Gauge::Kind::velocity
                          : kind == "overtopping" ? Gauge::Kind::overtopping
                                                  : Gauge::Kind::surface;
             gauge.x = entry.number("x", "m", "position of the gauge", Range::any());
@@ -59,7 +62,8 @@ std::vector<Gauge> read_gauges(const SceneFile& scene, double default_interval) 
                 gauge.z = entry.number("z", "m", "level of the gauge", Range::any());
             if (gauge.kind == Gauge::Kind::pressure)
                 gauge.diameter = entry.number("diameter", "m", "sensing face", Range::not_negative(), 0.0);
-            gauge.interval = entry.number("interval", "s", "between records", Range::positive(), default_interval);
+            gauge.interval =
+                entry.number("interval", "s", "between records", Range::positive(), default_interval);
         }
         gauges.push_back(gauge);
     }

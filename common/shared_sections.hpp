@@ -22,7 +22,8 @@ std::vector<Point> read_bed(const SceneFile& scene, bool required);
 /// Bed level at x by linear interpolation, m; x is held inside the polyline.
 double bed_level(const std::vector<Point>& bed, double x);
 
-/// One entry of [gauges]: `name = x` or `name = {x = ..., z = ..., kind = ..., diameter = ..., interval = ...}`.
+/// One entry of [gauges]: `name = x` or `name = {x = ..., z = ..., kind = ..., diameter = ..., interval =
+/// ...}`.
 struct Gauge {
     enum class Kind { surface, pressure, velocity, overtopping };
     std::string name;

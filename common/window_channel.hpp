@@ -25,11 +25,13 @@ Window read_window(const std::filesystem::path& path, const std::string& stage,
 class WindowReader {
  public:
     /// `follow`: wait for windows that are not there yet, until the upstream run.json says it is done.
-    WindowReader(std::filesystem::path folder, std::string stage, std::vector<ExpectedDataset> expected, bool follow);
+    WindowReader(std::filesystem::path folder, std::string stage, std::vector<ExpectedDataset> expected,
+                 bool follow);
 
-    /// The window `index`, or nothing when the upstream stage ended before it (or, without follow, when it is not
-    /// there). Throws InputError on a damaged window, a gap (window missing while later ones exist), or windows of
-    /// different digests; RunError when the upstream stage failed or died while followed; Interrupted.
+    /// The window `index`, or nothing when the upstream stage ended before it (or, without follow, when it is
+    /// not there). Throws InputError on a damaged window, a gap (window missing while later ones exist), or
+    /// windows of different digests; RunError when the upstream stage failed or died while followed;
+    /// Interrupted.
     std::optional<Window> receive(std::int64_t index);
 
     /// The first window (waits with follow). Throws InputError when the folder holds none.

@@ -15,8 +15,8 @@ class WindowClock {
     double begin_of(std::int64_t index) const;
     double end_of(std::int64_t index) const;
 
-    /// Sample times of one window: both ends, and every multiple of `interval` (counted from time zero, so that
-    /// samples do not depend on the window length) between them.
+    /// Sample times of one window: both ends, and every multiple of `interval` (counted from time zero, so
+    /// that samples do not depend on the window length) between them.
     std::vector<double> samples_in(std::int64_t index, double interval) const;
 
  private:

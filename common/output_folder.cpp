@@ -1,0 +1,110 @@
+#include "common/output_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "common/errors.hpp"
+#include "common/run_record.hpp"
+#include "common/window_channel.hpp"
+
+namespace common {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_temporary(const std::string& name) {
+    return name.starts_with(".") && name.ends_with(".tmp");
+}
+
+/// A file that a run of this program writes, and that a new run therefore replaces.
+bool is_ours(const std::string& name) {
+    return name == "state.h5" || name == "geometry.h5" || name == "run.json" || name.ends_with(".xdmf") ||
+           (name.starts_with("window_") && name.ends_with(".h5"));
+}
+
+template <class Test>
+void remove_files(const fs::path& folder, const Test& test) {
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.is_regular_file() && test(entry.path().filename().string())) fs::remove(entry.path());
+}
+
+bool is_finished(const fs::path& folder, const RunIdentity& identity) {
+    if (read_upstream_status(folder).state != UpstreamStatus::State::done) return false;
+    const fs::path first = window_path(folder, 0);
+    if (!fs::exists(first)) return false;
+    const Window window = read_window(first, identity.stage, {});
+    return window.scene_digest == identity.scene_digest && window.input_digest == identity.input_digest;
+}
+
+}  // namespace
+
+FolderLock::FolderLock(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+        throw InputError(
+            fmt::format("{}: cannot create the output folder: {}", folder.string(), error.message()));
+    descriptor_ = ::open((folder / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+    if (descriptor_ < 0)
+        throw InputError(fmt::format("{}: cannot write here: {}", folder.string(), std::strerror(errno)));
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+        ::close(descriptor_);
+        throw InputError(fmt::format("{}: another run is writing here", folder.string()));
+    }
+}
+
+FolderLock::~FolderLock() {
+    ::close(descriptor_);
+}
+
+OutputFolder::OutputFolder(fs::path folder, RunIdentity identity, bool resume)
+    : folder_(std::move(folder)), identity_(std::move(identity)), lock_(folder_) {
+    remove_files(folder_, is_temporary);
+
+    if (is_finished(folder_, identity_)) {
+        start_ = Start::nothing_to_do;
+        return;
+    }
+    const fs::path state = folder_ / "state.h5";
+    if (resume && fs::exists(state)) {
+        DataFile saved = read_data_file(state);
+        if (saved.text("stage") != identity_.stage || saved.text("scene_digest") != identity_.scene_digest ||
+            saved.text("input_digest") != identity_.input_digest)
+            throw InputError(fmt::format(
+                "{}: belongs to another scene or input; run without --resume to start anew", state.string()));
+        next_window_ = saved.integer("next_window");
+        start_ = Start::go_on;
+        state_ = std::move(saved);
+        return;
+    }
+    remove_files(folder_, is_ours);
+}
+
+void OutputFolder::publish(Window window, DataFile state) {
+    window.stage = identity_.stage;
+    window.scene_digest = identity_.scene_digest;
+    window.input_digest = identity_.input_digest;
+    publish_window(folder_, window);
+    state.attributes["schema"] = fmt::format("tsunagi.{}.state/1", identity_.stage);
+    state.attributes["stage"] = identity_.stage;
+    state.attributes["scene_digest"] = identity_.scene_digest;
+    state.attributes["input_digest"] = identity_.input_digest;
+    state.attributes["next_window"] = window.index + 1;
+    state.attributes["t"] = window.t_end;
+    write_data_file(folder_ / "state.h5", state);
+    next_window_ = window.index + 1;
+}
+
+void OutputFolder::write_geometry(DataFile geometry) const {
+    geometry.attributes["schema"] = fmt::format("tsunagi.{}.geometry/1", identity_.stage);
+    geometry.attributes["scene_digest"] = identity_.scene_digest;
+    write_data_file(folder_ / "geometry.h5", geometry);
+}
+
+}  // namespace common

@@ -1,0 +1,40 @@
+#include "common/window_clock.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace common {
+
+WindowClock::WindowClock(double start, double end, double length)
+    : start_(start), end_(end), length_(length) {
+    // A remainder below rounding is no window of its own.
+    count_ = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil((end - start) / length - 1e-9)));
+}
+
+double WindowClock::begin_of(std::int64_t index) const {
+    return start_ + static_cast<double>(index) * length_;
+}
+
+double WindowClock::end_of(std::int64_t index) const {
+    return index + 1 >= count_ ? end_ : begin_of(index + 1);
+}
+
+std::vector<double> WindowClock::samples_in(std::int64_t index, double interval) const {
+    const double begin = begin_of(index), end = end_of(index);
+    const double sliver = 1e-6 * interval;
+    std::vector<double> samples{begin};
+    for (auto k = static_cast<std::int64_t>(std::floor(begin / interval));
+         static_cast<double>(k) * interval < end - sliver; ++k) {
+        const double t = static_cast<double>(k) * interval;
+        if (t > begin + sliver) samples.push_back(t);
+    }
+    samples.push_back(end);
+    return samples;
+}
+
+double landing_step(double now, double target, double largest) {
+    const double left = target - now;
+    return left / std::max(1.0, std::ceil(left / largest * (1 - 1e-12)));
+}
+
+}  // namespace common

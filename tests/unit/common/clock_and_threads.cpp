@@ -1,0 +1,52 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/parallel.hpp"
+#include "common/window_clock.hpp"
+
+using namespace common;
+
+TEST(WindowClock, LastWindowEndsExactlyAtTheEnd) {
+    const WindowClock clock(0, 2.5, 1);
+    EXPECT_EQ(clock.window_count(), 3);
+    EXPECT_EQ(clock.end_of(2), 2.5);
+    EXPECT_EQ(clock.begin_of(2), 2.0);
+    EXPECT_EQ(WindowClock(0, 3 * 0.1, 0.1).window_count(), 3) << "rounding made a window of its own";
+}
+
+TEST(WindowClock, SamplesHoldBothEndsAndDoNotDependOnTheWindowLength) {
+    const WindowClock clock(0, 1, 0.25);
+    EXPECT_EQ(clock.samples_in(1, 0.1), (std::vector<double>{0.25, 3 * 0.1, 4 * 0.1, 0.5}));
+    const WindowClock whole(0, 1, 1);
+    const auto samples = whole.samples_in(0, 0.1);
+    ASSERT_EQ(samples.size(), 11u);
+    EXPECT_EQ(samples[3], 3 * 0.1);
+}
+
+TEST(WindowClock, SamplesOfALongRunHaveNoSlivers) {
+    const WindowClock clock(0, 4000, 0.7);
+    for (std::int64_t k = 0; k < clock.window_count(); ++k) {
+        const auto samples = clock.samples_in(k, 0.07);
+        EXPECT_EQ(samples.front(), clock.begin_of(k));
+        EXPECT_EQ(samples.back(), clock.end_of(k));
+        for (std::size_t i = 1; i < samples.size(); ++i) EXPECT_GT(samples[i] - samples[i - 1], 0.01 * 0.07);
+    }
+}
+
+TEST(LandingStep, EqualStepsLandOnTheTarget) {
+    EXPECT_DOUBLE_EQ(landing_step(0, 1, 0.3), 0.25);
+    EXPECT_DOUBLE_EQ(landing_step(0, 1, 0.25), 0.25);
+    EXPECT_DOUBLE_EQ(landing_step(0.9, 1, 0.3), 1 - 0.9);
+}
+
+TEST(OrderedSum, SameBitsForAnyNumberOfThreads) {
+    const auto sum = [] {
+        return ordered_sum(300000, [](std::size_t i) { return std::sin(static_cast<double>(i)) * 1e3; });
+    };
+    omp_set_num_threads(1);
+    const double one = sum();
+    omp_set_num_threads(3);
+    EXPECT_EQ(one, sum());
+    omp_set_num_threads(1);
+}
