@@ -80,6 +80,8 @@ OutputFolder::OutputFolder(fs::path folder, RunIdentity identity, bool resume)
                 "{}: belongs to another scene or input; run without --resume to start anew", state.string()));
         next_window_ = saved.integer("next_window");
         start_ = Start::go_on;
+        for (std::int64_t k = 0; k < next_window_; ++k)
+            index_.add(read_window(window_path(folder_, k), identity_.stage, {}));
         state_ = std::move(saved);
         return;
     }
@@ -91,6 +93,8 @@ void OutputFolder::publish(Window window, DataFile state) {
     window.scene_digest = identity_.scene_digest;
     window.input_digest = identity_.input_digest;
     publish_window(folder_, window);
+    index_.add(window);
+    index_.write(folder_, identity_.stage);
     state.attributes["schema"] = fmt::format("tsunagi.{}.state/1", identity_.stage);
     state.attributes["stage"] = identity_.stage;
     state.attributes["scene_digest"] = identity_.scene_digest;

@@ -7,6 +7,7 @@
 
 #include "common/data_file.hpp"
 #include "common/window.hpp"
+#include "common/xdmf.hpp"
 
 namespace common {
 
@@ -46,8 +47,9 @@ class OutputFolder {
     /// First window to compute: 0, or the one after the saved state.
     std::int64_t next_window() const { return next_window_; }
 
-    /// Publishes `window` (stage and digests are filled in), then saves `state` as the one to go on from.
-    /// In this order: a run killed between the two computes the window again, to the same bytes.
+    /// Publishes `window` (stage and digests are filled in), adds it to the ParaView index, then saves
+    /// `state` as the one to go on from. In this order: a run killed between the two computes the window
+    /// again, to the same bytes.
     void publish(Window window, DataFile state);
     /// geometry.h5
     void write_geometry(DataFile geometry) const;
@@ -60,6 +62,7 @@ class OutputFolder {
     Start start_ = Start::fresh;
     std::optional<DataFile> state_;
     std::int64_t next_window_ = 0;
+    XdmfIndex index_;
     FolderLock lock_;
 };
 

@@ -117,6 +117,8 @@ void RunRecord::write(const std::string& status, const std::string& message) {
     Json phases = Json::object();
     for (const auto& [name, time] : content_->phases)
         phases[name] = {{"seconds", time}, {"share", wall > 0 ? time / wall : 0}};
+    for (auto& [name, effect] : content_->effects.items())
+        if (effect["on"] == true && phases.contains(name)) effect["share_of_time"] = phases[name]["share"];
     Json record = {{"schema", "tsunagi.run/1"},
                    {"stage", stage_},
                    {"status", status},

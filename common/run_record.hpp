@@ -12,7 +12,7 @@
 
 namespace common {
 
-/// An optional effect, on or off, and why; after the run the share of time it took.
+/// An optional effect, on or off, and why. A phase of the same name gives the share of time it took.
 struct EffectRecord {
     std::string name;
     bool is_on;
