@@ -26,6 +26,7 @@ Window sample_window(std::int64_t index) {
     window.datasets["/time"] = real64("s", {3}, {t, t + 0.5, t + 1});
     window.datasets["/x"] = real64("m", {2}, {0.0, 0.1});
     window.datasets["/surface_elevation"] = real32("m", {3, 2}, std::vector<float>{0, 1, 2, 3, 4, 5});
+    window.datasets["/velocity"] = real32("m/s", {3, 2}, std::vector<float>(6));
     return window;
 }
 
@@ -287,4 +288,16 @@ TEST(RunRecord, StatusIsReadBack) {
     std::ifstream stream(folder.path / "run.json");
     const std::string text((std::istreambuf_iterator<char>(stream)), {});
     EXPECT_TRUE(holds(text, "\"value\": null") && holds(text, "\"holds\": false")) << text;
+}
+
+TEST(XdmfIndex, NamesEverySampleOfEveryWindow) {
+    XdmfIndex index;
+    index.add(sample_window(0));
+    index.add(sample_window(1));
+    index.add(sample_window(1));  // a window computed again replaces itself
+    const std::string text = index.text();
+    std::size_t times = 0;
+    for (auto at = text.find("<Time "); at != std::string::npos; at = text.find("<Time ", at + 1)) ++times;
+    EXPECT_EQ(times, 6u);
+    EXPECT_TRUE(holds(text, "window_000001.h5:/surface_elevation"));
 }
