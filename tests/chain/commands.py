@@ -1,0 +1,123 @@
+"""The set-up script and the rules of workflows/Makefile, with stand-ins for what they start."""
+import os
+import shutil
+import subprocess
+
+from harness import SOURCE, check, environment, main, test
+
+STAGE = """#!/bin/sh
+echo "$(basename $0) $*" >> {log}
+while [ $# -gt 0 ]; do if [ "$1" = --out ]; then mkdir -p $2; echo '{{}}' > $2/run.json; fi; shift; done
+"""
+
+
+class Workbench:
+    """Stand-in stages that note how they were called, a scene and two layouts."""
+
+    def __init__(self, folder):
+        self.folder, self.log = folder, folder / "log"
+        (folder / "bin").mkdir()
+        for name in ("boussinesq", "cmps", "dem", "coupler"):
+            path = folder / "bin" / name
+            path.write_text(STAGE.format(log=self.log))
+            path.chmod(0o755)
+        for name in ("scene", "first", "second"):
+            (folder / f"{name}.toml").write_text("")
+
+    def make(self, *words):
+        """Runs make and returns the stages it started, in order: ["boussinesq run ...", ...]."""
+        self.log.write_text("")
+        ended = subprocess.run(["make", "-C", SOURCE / "workflows", f"BIN={self.folder}/bin", "SCENE=scene.toml", "OUT=out",
+                                *words], capture_output=True, text=True, cwd=self.folder,
+                               env=environment(PWD=str(self.folder), MAKEFLAGS=""))
+        check(ended.returncode == 0, ended.stderr)
+        return self.log.read_text().splitlines()
+
+    def touch(self, name):
+        later = max(path.stat().st_mtime for path in self.folder.rglob("*")) + 1
+        os.utime(self.folder / name, (later, later))
+
+
+def programs(calls):
+    return [call.split()[0] for call in calls]
+
+
+@test
+def only_what_changed_runs_again(folder):
+    bench = Workbench(folder)
+    check(programs(bench.make("flow")) == ["boussinesq", "cmps"], "flow needs waves first")
+    check(bench.make("flow") == [], "nothing changed, yet something ran")
+    check(programs(bench.make("blocks")) == ["dem"], "blocks run on the flow that is there")
+    check(bench.make("waves", "flow", "blocks") == [], "nothing changed, yet something ran")
+    bench.touch("scene.toml")
+    check(programs(bench.make("flow")) == ["boussinesq", "cmps"], "the scene changed")
+    calls = bench.make("flow", "SET=accuracy=draft waves.height=0.1")
+    check(programs(calls) == ["boussinesq", "cmps"], "the settings changed")
+    check(all("--set accuracy=draft --set waves.height=0.1" in call for call in calls), calls)
+
+
+@test
+def layouts_have_folders_of_their_own_and_share_one_flow(folder):
+    bench = Workbench(folder)
+    bench.make("flow")
+    calls = bench.make("-j2", "blocks", "WIRES=first.toml second.toml")
+    check(programs(calls) == ["dem", "dem"], calls)
+    for name in ("first", "second"):
+        check(any(f"--wires {folder}/{name}.toml --out {folder}/out/blocks_{name}" in call for call in calls), calls)
+    check(all(f"--flow {folder}/out/flow" in call for call in calls), calls)
+    bench.touch("second.toml")
+    calls = bench.make("-j2", "blocks", "WIRES=first.toml second.toml")
+    check(len(calls) == 1 and "second" in calls[0], calls)
+
+
+@test
+def launch_stands_before_every_stage(folder):
+    bench = Workbench(folder)
+    launcher = folder / "launcher"
+    launcher.write_text(f"#!/bin/sh\necho launched >> {bench.log}\nexec \"$@\"\n")
+    launcher.chmod(0o755)
+    calls = bench.make("-j2", "flow", f"LAUNCH={launcher}")
+    check(programs(calls) == ["launched", "boussinesq", "launched", "cmps"], calls)
+
+
+@test
+def a_file_that_is_not_there_is_named(folder):
+    ended = subprocess.run(["make", "-C", SOURCE / "workflows", "waves", "SCENE=absent.toml"], capture_output=True, text=True,
+                           env=environment(MAKEFLAGS=""))
+    check(ended.returncode != 0 and "no such file: absent.toml" in ended.stderr, ended.stderr)
+
+
+def set_up(folder, packages, user):
+    """Runs workflows/set_up on a list of packages as if called by `user` (numeric id)."""
+    shutil.copy(SOURCE / "workflows/set_up", folder)
+    (folder / "packages").write_text(packages)
+    stand_ins = folder / "stand_ins"
+    stand_ins.mkdir(exist_ok=True)
+    for name, text in (("id", f"echo {user}"), ("apt-get", f"echo apt-get $* >> {folder}/log")):
+        (stand_ins / name).write_text(f"#!/bin/sh\n{text}\n")
+        (stand_ins / name).chmod(0o755)
+    return subprocess.run([folder / "set_up"], capture_output=True, text=True,
+                          env=environment(PATH=f"{stand_ins}:{os.environ['PATH']}"))
+
+
+@test
+def set_up_does_nothing_when_nothing_is_missing(folder):
+    ended = set_up(folder, (SOURCE / "workflows/packages").read_text(), 1000)
+    check(ended.returncode == 0 and not ended.stdout + ended.stderr, ended.stdout + ended.stderr)
+
+
+@test
+def set_up_asks_an_administrator_without_root(folder):
+    ended = set_up(folder, "# comment\nmake\nno-such-package\n", 1000)
+    check(ended.returncode == 1 and "apt-get install --no-install-recommends no-such-package" in ended.stderr, ended.stderr)
+    check(not (folder / "log").exists(), "apt-get was called without root")
+
+
+@test
+def set_up_installs_what_is_missing_as_root(folder):
+    ended = set_up(folder, "make\nno-such-package\n", 0)
+    check(ended.returncode == 0, ended.stderr)
+    check((folder / "log").read_text().splitlines()[-1].endswith(" no-such-package"), (folder / "log").read_text())
+
+
+main()
