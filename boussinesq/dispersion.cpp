@@ -1,0 +1,176 @@
+#include "boussinesq/dispersion.hpp"
+
+#include <cmath>
+
+namespace boussinesq {
+namespace {
+
+constexpr double square(double x) {
+    return x * x;
+}
+
+/// (g/alpha) eta_x of cells begin-1 .. end, fourth order.
+void wet_slopes(Tile& tile, const FlowParameters& flow) {
+    const double* e = tile.elevation.value;
+    const double scale = gravity / flow.alpha / flow.spacing / 12.0;
+    for (std::size_t t = tile.begin() - 1; t < tile.end() + 1; ++t)
+        tile.elevation_slope[t] = scale * (8.0 * (e[t + 1] - e[t - 1]) - (e[t + 2] - e[t - 2]));
+}
+
+/// The same without looking across the shoreline, and the cells next to it, whose D the slope prescribes.
+void shoreline_slopes(Tile& tile, const FlowParameters& flow, const unsigned char* bore) {
+    const double dry = 10.0 * flow.dry_depth;
+    const double* h = tile.depth.value;
+    const double* e = tile.elevation.value;
+    const double scale = gravity / flow.alpha / flow.spacing;
+    for (std::size_t t = tile.begin() - 1; t < tile.end() + 1; ++t) {
+        const bool wet = h[t] > dry, wet_offshore = h[t - 1] > dry, wet_shoreward = h[t + 1] > dry;
+        const bool inside = wet && wet_offshore && wet_shoreward;
+        const bool far_inside = inside && h[t - 2] > dry && h[t + 2] > dry;
+        double rise = 0.0;
+        if (far_inside)
+            rise = (8.0 * (e[t + 1] - e[t - 1]) - (e[t + 2] - e[t - 2])) / 12.0;
+        else if (inside)
+            rise = 0.5 * (e[t + 1] - e[t - 1]);
+        else if (wet && wet_offshore)
+            rise = e[t] - e[t - 1];
+        else if (wet && wet_shoreward)
+            rise = e[t + 1] - e[t];
+        tile.elevation_slope[t] = scale * rise;
+        tile.held[t] = !inside || (bore != nullptr && bore[tile.first + t] != 0) ? 1.0 : 0.0;
+    }
+}
+
+/// alpha h T + h on the left, h ((g/alpha) eta_x + Q) on the right, from the slopes.
+void assemble(Tile& tile, const FlowParameters& flow) {
+    const double inverse = 1.0 / flow.spacing;
+    const double sqrt3 = std::sqrt(3.0);
+    const double* h = tile.depth.value;
+    const double* u = tile.velocity.value;
+    const double* b = tile.bed.value;
+    const double* s = tile.elevation_slope.value;
+    const std::size_t from = tile.begin(), to = tile.end();
+
+    for (std::size_t t = from - 1; t < to + 1; ++t) {
+        const double bend = (b[t + 1] - 2.0 * b[t] + b[t - 1]) * inverse * inverse;
+        tile.curvature[t] = square(h[t] * u[t]) * bend;
+    }
+    for (std::size_t t = from; t < to + 1; ++t) {
+        const double depth = 0.5 * (h[t - 1] + h[t]);
+        const double bed_slope = (b[t] - b[t - 1]) * inverse;
+        const double p = depth * inverse / sqrt3, r = 0.25 * sqrt3 * bed_slope, q = square(0.25 * bed_slope);
+        const double weight = flow.alpha * depth;
+        const double numerov = depth / 12.0;
+        tile.off_diagonal[t] = weight * (q - (p - r) * (p + r)) + numerov;
+        tile.diagonal[t] = weight * (square(p - r) + q) - numerov;        // of the cell shoreward
+        tile.diagonal_minus[t] = weight * (square(p + r) + q) - numerov;  // of the cell offshore
+        const double strain = depth * square((u[t] - u[t - 1]) * inverse);
+        tile.stretch[t] = square(depth) * strain;
+        tile.bed_stretch[t] = depth * strain * bed_slope;
+    }
+    for (std::size_t t = from; t < to; ++t) {
+        const double bed_slope = 0.5 * (b[t + 1] - b[t - 1]) * inverse;
+        const double bend = (b[t + 1] - 2.0 * b[t] + b[t - 1]) * inverse * inverse;
+        const double averaged_slope =
+            h[t] * s[t] +
+            ((h[t + 1] + h[t]) * (s[t + 1] - s[t]) - (h[t] + h[t - 1]) * (s[t] - s[t - 1])) / 24.0;
+        tile.right_side[t] = averaged_slope +
+                             (2.0 / 3.0) * (tile.stretch[t + 1] - tile.stretch[t]) * inverse +
+                             0.5 * (tile.bed_stretch[t + 1] + tile.bed_stretch[t]) +
+                             0.25 * (tile.curvature[t + 1] - tile.curvature[t - 1]) * inverse +
+                             h[t] * square(u[t]) * bend * bed_slope;
+        tile.diagonal[t] += h[t] + tile.diagonal_minus[t + 1];
+    }
+}
+
+}  // namespace
+
+void assemble_wet_dispersion(Tile& tile, const FlowParameters& flow) {
+    wet_slopes(tile, flow);
+    assemble(tile, flow);
+}
+
+void assemble_shoreline_dispersion(Tile& tile, const FlowParameters& flow, const unsigned char* bore) {
+    shoreline_slopes(tile, flow, bore);
+    assemble(tile, flow);
+    for (std::size_t t = tile.begin(); t < tile.end(); ++t) {
+        if (tile.held[t] != 0.0) {
+            tile.diagonal[t] = 1.0;
+            tile.right_side[t] = tile.elevation_slope[t];
+        } else {  // known neighbours move to the right-hand side
+            tile.right_side[t] -= tile.held[t - 1] * tile.off_diagonal[t] * tile.elevation_slope[t - 1] +
+                                  tile.held[t + 1] * tile.off_diagonal[t + 1] * tile.elevation_slope[t + 1];
+        }
+    }
+    for (std::size_t t = tile.begin(); t <= tile.end(); ++t)
+        if (tile.held[t - 1] != 0.0 || tile.held[t] != 0.0) tile.off_diagonal[t] = 0.0;
+}
+
+void eliminate(Tile* left, Tile* right, DispersionSystem& system, ChainEnds& ends) {
+    // Two independent chains; each waits on its own division only.
+    double* ratio = system.ratio.data();
+    double* value = system.value.data();
+    const auto step_left = [&](std::size_t t) {
+        const double before = left->off_diagonal[t];
+        const double pivot = 1.0 / (left->diagonal[t] - before * ends.left_ratio);
+        ends.left_ratio = left->off_diagonal[t + 1] * pivot;
+        ends.left_value = (left->right_side[t] - before * ends.left_value) * pivot;
+        ratio[left->first + t] = ends.left_ratio;
+        value[left->first + t] = ends.left_value;
+    };
+    const auto step_right = [&](std::size_t t) {
+        const double before = right->off_diagonal[t + 1];
+        const double pivot = 1.0 / (right->diagonal[t] - before * ends.right_ratio);
+        ends.right_ratio = right->off_diagonal[t] * pivot;
+        ends.right_value = (right->right_side[t] - before * ends.right_value) * pivot;
+        ratio[right->first + t] = ends.right_ratio;
+        value[right->first + t] = ends.right_value;
+    };
+    const std::size_t count_left = left ? left->count : 0, count_right = right ? right->count : 0;
+    const std::size_t together = count_left < count_right ? count_left : count_right;
+    for (std::size_t j = 0; j < together; ++j) {
+        step_left(ghost_cells + j);
+        step_right(ghost_cells + count_right - 1 - j);
+    }
+    for (std::size_t j = together; j < count_left; ++j) step_left(ghost_cells + j);
+    for (std::size_t j = together; j < count_right; ++j) step_right(ghost_cells + count_right - 1 - j);
+}
+
+void subtract_accelerations(const DispersionSystem& system, std::size_t middle, std::size_t cells,
+                            double step, const double* depth, double* discharge) {
+    const double* ratio = system.ratio.data();
+    const double* value = system.value.data();
+    const std::size_t first = ghost_cells, last = ghost_cells + cells - 1;
+    const std::size_t centre = ghost_cells + middle;  // first cell of the right chain
+    double left = 0.0, right = 0.0;
+    if (middle == 0 || middle == cells) {
+        left = right = 0.0;
+    } else {  // where the chains meet: two unknowns, two equations
+        const double ratio_left = ratio[centre - 1], ratio_right = ratio[centre];
+        right = (value[centre] - ratio_right * value[centre - 1]) / (1.0 - ratio_left * ratio_right);
+        left = value[centre - 1] - ratio_left * right;
+        discharge[centre] -= step * depth[centre] * right;
+        discharge[centre - 1] -= step * depth[centre - 1] * left;
+    }
+    std::size_t i = centre - 1, j = centre;
+    while (i > first && j < last) {
+        --i;
+        ++j;
+        left = value[i] - ratio[i] * left;
+        right = value[j] - ratio[j] * right;
+        discharge[i] -= step * depth[i] * left;
+        discharge[j] -= step * depth[j] * right;
+    }
+    while (i > first) {
+        --i;
+        left = value[i] - ratio[i] * left;
+        discharge[i] -= step * depth[i] * left;
+    }
+    while (j < last) {
+        ++j;
+        right = value[j] - ratio[j] * right;
+        discharge[j] -= step * depth[j] * right;
+    }
+}
+
+}  // namespace boussinesq

@@ -1,0 +1,162 @@
+#include "boussinesq/flow_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "boussinesq/shallow_water.hpp"
+
+namespace boussinesq {
+
+FlowStep::FlowStep(const Grid& grid, const Bed& bed, const FlowParameters& flow, FlowTerms terms)
+    : grid_(grid),
+      bed_(bed),
+      flow_(flow),
+      terms_(terms),
+      before_(grid),
+      first_(grid),
+      second_(grid),
+      system_(grid),
+      left_tile_(std::make_unique<Tile>()),
+      right_tile_(std::make_unique<Tile>()) {}
+
+void FlowStep::fill_ghosts(WaveState& state) const {
+    double* h = state.depth.data();
+    double* q = state.discharge.data();
+    const std::size_t first = ghost_cells, last = ghost_cells + grid_.cells - 1;
+    for (std::size_t k = 0; k < ghost_cells; ++k) {
+        const std::size_t mirror = std::min(k, grid_.cells - 1);
+        h[first - 1 - k] = h[first + mirror];
+        q[first - 1 - k] = -q[first + mirror];
+        h[last + 1 + k] = h[last - mirror];
+        q[last + 1 + k] = -q[last - mirror];
+    }
+    const auto open = [&](std::size_t inner, double direction, auto ghost_at) {
+        const double still = std::max(-bed_.level(inner), 0.0);
+        const double speed = direction * 2.0 * (std::sqrt(gravity * h[inner]) - std::sqrt(gravity * still));
+        for (std::size_t k = 0; k < ghost_cells; ++k) {
+            h[ghost_at(k)] = h[inner];
+            q[ghost_at(k)] = h[inner] * speed;
+        }
+    };
+    if (flow_.offshore == End::open) open(first, -1.0, [&](std::size_t k) { return first - 1 - k; });
+    if (flow_.shoreward == End::open) open(last, 1.0, [&](std::size_t k) { return last + 1 + k; });
+}
+
+Survey FlowStep::survey(const WaveState& state) const {
+    const double* h = state.depth.data();
+    const double* q = state.discharge.data();
+    const double thin = flow_.dry_depth, film = 16.0 * thin * thin;
+    double fastest = 0, shallowest = h[ghost_cells], total = 0;
+    for (std::size_t k = ghost_cells; k < ghost_cells + grid_.cells; ++k) {
+        const double speed = std::abs(2.0 * h[k] * q[k] / (h[k] * h[k] + std::max(h[k] * h[k], film))) +
+                             std::sqrt(gravity * std::max(h[k], 0.0));
+        fastest = std::max(fastest, speed);
+        shallowest = std::min(shallowest, h[k]);
+        total += speed;  // not a number if any is: std::max would pass over it
+    }
+    return {.fastest = std::isfinite(total) ? fastest : total, .shallowest = shallowest};
+}
+
+void FlowStep::advance(WaveState& state, double step) {
+    std::swap(before_, state);
+    stage(before_, 0.0, before_, 1.0, step, first_);
+    stage(before_, 0.75, first_, 0.25, step, second_);
+    stage(before_, 1.0 / 3.0, second_, 2.0 / 3.0, step, state);
+}
+
+void FlowStep::stage(const WaveState& start, double start_share, WaveState& in, double stage_share,
+                     double step, WaveState& out) {
+    fill_ghosts(in);
+    if (terms_.dispersion)
+        terms_.shoreline ? stage_of<true, true>(start, start_share, in, stage_share, step, out)
+                         : stage_of<true, false>(start, start_share, in, stage_share, step, out);
+    else
+        terms_.shoreline ? stage_of<false, true>(start, start_share, in, stage_share, step, out)
+                         : stage_of<false, false>(start, start_share, in, stage_share, step, out);
+}
+
+template <bool with_dispersion, bool with_shoreline>
+void FlowStep::stage_of(const WaveState& start, double start_share, WaveState& in, double stage_share,
+                        double step, WaveState& out) {
+    const std::size_t tiles = (grid_.cells + tile_cells - 1) / tile_cells;
+    const std::size_t left_tiles = (tiles + 1) / 2;
+    const auto count_of = [&](std::size_t tile) {
+        return std::min(tile_cells, grid_.cells - tile * tile_cells);
+    };
+    const auto sweep = [&](Tile& tile, std::size_t index) {
+        tile.first = index * tile_cells;
+        tile.count = count_of(index);
+        sweep_tile<with_dispersion, with_shoreline>(tile, start, start_share, in, stage_share, step, out);
+    };
+    ChainEnds ends;
+    for (std::size_t pair = 0; pair < left_tiles; ++pair) {
+        const std::size_t other = tiles - 1 - pair;
+        const bool has_other = other >= left_tiles;
+        sweep(*left_tile_, pair);
+        if (has_other) sweep(*right_tile_, other);
+        if constexpr (with_dispersion)
+            eliminate(left_tile_.get(), has_other ? right_tile_.get() : nullptr, system_, ends);
+    }
+    if constexpr (with_dispersion)
+        subtract_accelerations(system_, std::min(left_tiles * tile_cells, grid_.cells), grid_.cells,
+                               stage_share * step, in.depth.data(), out.discharge.data());
+}
+
+template <bool with_dispersion, bool with_shoreline>
+void FlowStep::sweep_tile(Tile& tile, const WaveState& start, double start_share, const WaveState& in,
+                          double stage_share, double step, WaveState& out) {
+    load_tile(tile, in.depth.data(), in.discharge.data(), bed_.face_level.data(), flow_, with_shoreline);
+    const bool wet = !with_shoreline || is_deep(tile, flow_);
+    if (wet)
+        wet_fluxes(tile, flow_);
+    else
+        shoreline_fluxes(tile, flow_, step);
+    if constexpr (with_dispersion) {
+        if (wet && bores_ == nullptr)
+            assemble_wet_dispersion(tile, flow_);
+        else
+            assemble_shoreline_dispersion(tile, flow_, bores_);
+        // D is odd at a wall, even at an open end.
+        const std::size_t last = tile.end() - 1;
+        if (tile.first == 0) {
+            const double wall = tile.off_diagonal[tile.begin()];
+            tile.diagonal[tile.begin()] += flow_.offshore == End::wall ? -wall : wall;
+            tile.off_diagonal[tile.begin()] = 0.0;
+        }
+        if (tile.first + tile.count == grid_.cells) {
+            const double wall = tile.off_diagonal[last + 1];
+            tile.diagonal[last] += flow_.shoreward == End::wall ? -wall : wall;
+            tile.off_diagonal[last + 1] = 0.0;
+        }
+    }
+    const double inverse = 1.0 / flow_.spacing;
+    const std::size_t first = tile.first;
+    const double* h_start = start.depth.data() + first;
+    const double* q_start = start.discharge.data() + first;
+    const double* q_in = in.discharge.data() + first;
+    double* h_out = out.depth.data() + first;
+    double* q_out = out.discharge.data() + first;
+    const auto update = [&](auto discharge_rate) {
+        const std::size_t from = tile.begin(), to = tile.end();
+#pragma GCC ivdep
+        for (std::size_t t = from; t < to; ++t) {
+            double rate = discharge_rate(t);
+            if constexpr (with_dispersion) rate += tile.depth[t] * tile.elevation_slope[t];
+            h_out[t] = start_share * h_start[t] +
+                       stage_share * (tile.depth[t] + step * depth_rate(tile, t, inverse));
+            q_out[t] = start_share * q_start[t] + stage_share * (q_in[t] + step * rate);
+        }
+    };
+    if (wet) {
+        update([&](std::size_t t) { return wet_discharge_rate(tile, t, inverse); });
+    } else {
+        update([&](std::size_t t) { return shoreline_discharge_rate(tile, t, inverse); });
+        for (std::size_t t = tile.begin(); t < tile.end(); ++t)
+            if (h_out[t] < 0.0) {
+                water_made_ -= h_out[t] * flow_.spacing;
+                h_out[t] = 0.0;
+            }
+    }
+}
+
+}  // namespace boussinesq

@@ -1,0 +1,58 @@
+/// The scene as this stage reads it: its sections, checked, turned into plain values.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "boussinesq/effect_rules.hpp"
+#include "boussinesq/flow_step.hpp"
+#include "boussinesq/grid.hpp"
+#include "boussinesq/waves/wave_components.hpp"
+#include "common/run_record.hpp"
+#include "common/scene_file.hpp"
+#include "common/shared_sections.hpp"
+
+namespace boussinesq {
+
+enum class WaveKind { none, regular, solitary, irregular, series };
+enum class EndKind { absorbing, wall, open };
+
+/// [waves], and [initial] in its place.
+struct WaveSection {
+    WaveKind kind = WaveKind::none;
+    double height = 0, period = 0;  ///< m, s; irregular: H_1/3 and peak period
+    double position = 0;            ///< m
+    double ramp = 0;                ///< s
+    double depth = 0;               ///< still water where the wave is made, m
+    double length = 0;              ///< of the (peak) wave there, m
+    SeaState sea;
+    std::vector<double> record_time, record_elevation, record_velocity;  ///< waves.file
+    std::vector<double> initial_x, initial_elevation, initial_velocity;  ///< [initial] file
+};
+
+/// Everything this stage takes from the scene.
+struct Scene {
+    common::TimeSection time;
+    std::vector<common::Point> bed;
+    std::vector<common::Gauge> gauges;
+    WaveSection waves;
+    Grid grid;
+    FlowParameters flow;
+    FlowTerms terms;
+    EndKind offshore = EndKind::absorbing, shoreward = EndKind::absorbing;
+    double generation_length = 0, offshore_sponge = 0, shoreward_sponge = 0;  ///< m; 0: none
+    double courant = 0.5, output_interval = 0.02;
+    double friction = 0;
+    bool friction_is_manning = false;
+    bool has_breaking = false, has_friction = false;
+    std::vector<common::EffectRecord> effects;
+    Expectation expectation;
+
+    double still_depth(double x) const { return -common::bed_level(bed, x); }
+};
+
+/// Reads and checks; throws InputError with one line per mistake.
+Scene read_scene(const common::SceneFile& file);
+
+}  // namespace boussinesq

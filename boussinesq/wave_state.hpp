@@ -1,0 +1,36 @@
+/// What is carried from step to step.
+#pragma once
+
+#include <vector>
+
+#include "boussinesq/grid.hpp"
+
+namespace boussinesq {
+
+/// Conserved quantities of every cell, padded.
+struct WaveState {
+    std::vector<double> depth;      ///< total water depth h, m
+    std::vector<double> discharge;  ///< h u, m2/s
+
+    explicit WaveState(const Grid& grid) : depth(grid.padded(), 0.0), discharge(grid.padded(), 0.0) {}
+};
+
+/// What happens at an end of the flume.
+enum class End {
+    wall,  ///< impermeable: mirrored depth, odd discharge
+    open   ///< long waves leave: the incoming invariant u -+ 2 sqrt(g h) is that of still water
+};
+
+/// The numbers the equations need; everything else is arrays.
+struct FlowParameters {
+    double spacing;           ///< m
+    double alpha = 1.153;     ///< dispersion constant (Bonneton et al. 2011); 1: classical Serre-Green-Naghdi
+    double dry_depth = 1e-5;  ///< cells below it count as dry, m
+    double velocity_scale =
+        1e-3;  ///< sqrt(g) times the depth scale: size of a velocity that is noise to WENO, m/s
+    double elevation_scale = 1e-3;  ///< size of an elevation that is noise to WENO, m
+    End offshore = End::wall;
+    End shoreward = End::wall;
+};
+
+}  // namespace boussinesq

@@ -1,0 +1,72 @@
+/// Waves as a sum of linear components: irregular sea states and waves known from a record.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "boussinesq/waves/incident_wave.hpp"
+#include "boussinesq/waves/wave_theory.hpp"
+
+namespace boussinesq {
+
+/// eta = amplitude cos(k x - w t + phase), u likewise with its own amplitude and phase.
+struct WaveComponent {
+    double angular_frequency, wave_number;        ///< rad/s, rad/m
+    double elevation_amplitude, elevation_phase;  ///< m, rad
+    double velocity_amplitude, velocity_phase;    ///< m/s, rad
+};
+
+/// Sum of components; x is counted from `position`.
+///
+/// A sum over hundreds of components at every cell and step would cost more than the flow itself, so it is
+/// evaluated at times a sixtieth of the shortest period of weight apart and followed in between by cubic
+/// interpolation (1e-6 of the height). Times are fixed multiples of that interval: the values do not depend
+/// on the steps taken.
+class ComponentWave : public IncidentWave {
+ public:
+    ComponentWave(std::vector<WaveComponent> components, double position, double interval);
+    void at(double t, std::span<const double> x, std::span<double> elevation,
+            std::span<double> velocity) const override;
+    const std::vector<WaveComponent>& components() const { return components_; }
+
+ private:
+    void evaluate(double t, std::span<const double> x, double* elevation, double* velocity) const;
+    std::vector<WaveComponent> components_;
+    double position_, interval_;
+    /// Values at four neighbouring times, by number of the interval; filled on demand.
+    struct Sample {
+        std::int64_t number;
+        std::vector<double> elevation, velocity;
+    };
+    mutable std::vector<Sample> samples_;
+};
+
+/// Shape of an irregular sea state.
+enum class Spectrum { jonswap, bretschneider_mitsuyasu };
+
+struct SeaState {
+    Spectrum spectrum = Spectrum::jonswap;
+    double significant_height = 0;  ///< H_1/3 = 4 sqrt(m0), m
+    double peak_period = 0;         ///< s
+    double peak_enhancement = 3.3;  ///< JONSWAP gamma
+    std::size_t components = 200;
+    std::uint64_t seed = 1;
+};
+
+/// Spectral density (m2 s) at frequency f (Hz) of unit m0 shape, not normalised.
+double spectral_shape(const SeaState& sea, double frequency);
+
+/// Components of equal energy, frequency drawn inside its band and phase uniform (seeded, so that a run
+/// repeats). Bands end at 3 peak frequencies and where the equations' dispersion ends being good (k d = 5).
+std::vector<WaveComponent> sea_components(const SeaState& sea, const LinearDispersion& dispersion,
+                                          double depth);
+
+/// Components of a record of the incident wave at one place, by FFT after resampling with a cubic spline.
+/// `velocity` may be empty: then linear theory gives it. The record is zero before its first and after its
+/// last time.
+std::vector<WaveComponent> record_components(const std::vector<double>& time,
+                                             const std::vector<double>& elevation,
+                                             const std::vector<double>& velocity,
+                                             const LinearDispersion& dispersion, double depth);
+
+}  // namespace boussinesq
