@@ -1,0 +1,44 @@
+#include "cmps/effect_rules.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace cmps {
+
+void decide_effects(const common::SceneFile& file, Scene& scene) {
+    using common::EffectWish;
+    const auto decide = [&](const char* name, bool is_needed, const std::string& reason) {
+        const EffectWish wish = common::read_effect_wish(file, name);
+        if (wish == EffectWish::automatic)
+            scene.effects.push_back({name, is_needed, reason});
+        else
+            scene.effects.push_back({name, wish == EffectWish::on, fmt::format("[effects] {} = \"{}\"", name, wish == EffectWish::on ? "on" : "off")});
+    };
+    const bool is_wave_driven = scene.drive == Drive::waves;
+    decide("start_at_arrival", is_wave_driven && !scene.start,
+           !is_wave_driven ? "not driven by waves" : scene.start ? "cmps.start gives a time" : "still water before the first wave is not simulated");
+    const bool has_zone = is_wave_driven && scene.boundary != Boundary::paper;
+    decide("relaxation_zone", has_zone,
+           has_zone ? "cmps.boundary asks for it" : is_wave_driven ? "cmps.boundary = \"paper\"" : "not driven by waves");
+
+    // boundary layer of a wave of about a second: sqrt(nu T)
+    const double layer = std::sqrt(scene.viscosity * 1.0);
+    const bool is_resolved = layer > 2.0 * scene.settings.spacing;
+    decide("viscosity", is_resolved,
+           fmt::format("boundary layer of one second {:.2g} m, particle spacing {:.2g} m", layer, scene.settings.spacing));
+
+    double crest = -1e300;
+    for (const Polygon& polygon : scene.structure)
+        for (const Point& p : polygon) crest = std::max(crest, p[1]);
+    const double reachable = 1.2 * scene.settings.depth;  // run-up of a breaking standing wave
+    const bool blocks = crest > 0 && crest < reachable && scene.water.empty() && !scene.tank;
+    decide("overtopping_basin", blocks,
+           crest <= 0          ? "no structure stands above still water"
+           : crest >= reachable ? fmt::format("crest at {:.2f} m is out of reach", crest)
+           : blocks             ? fmt::format("crest at {:.2f} m can be reached", crest)
+                                : "cmps.water says where water stands");
+}
+
+}  // namespace cmps

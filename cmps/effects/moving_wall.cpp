@@ -1,0 +1,18 @@
+#include "cmps/effects/moving_wall.hpp"
+
+namespace cmps {
+
+void MovingWall::begin_step(NearField& field, double time, double step) {
+    speed_ = velocity_(time + 0.5 * step, position());
+    Particles& particles = field.particles;
+    for (std::size_t i = 0; i < particles.first_fluid(); ++i)
+        if (particles.body[i] == body_moving_wall) particles.u[i] = speed_;
+}
+
+void MovingWall::end_step(NearField&, double, double step) { displacement_ += step * speed_; }
+
+double returning_wall_velocity(double wave_velocity, double displacement, double return_time) {
+    return wave_velocity - displacement / return_time;
+}
+
+}  // namespace cmps

@@ -1,0 +1,35 @@
+/// The moving wall that drives the near field, eq. (6), or a piston whose path is given.
+#pragma once
+
+#include <functional>
+
+#include "cmps/near_field.hpp"
+
+namespace cmps {
+
+/// Moves every boundary particle of `body_moving_wall` with one velocity.
+class MovingWall final : public Effect {
+ public:
+    /// `velocity(time, x)`: of the wall at its present place, m/s. The wall starts at `x`.
+    MovingWall(double x, std::function<double(double, double)> velocity) : start_(x), velocity_(std::move(velocity)) {}
+    std::string name() const override { return "moving wall"; }
+    void begin_step(NearField& field, double time, double step) override;
+    void end_step(NearField& field, double time, double step) override;
+    std::vector<double> state() const override { return {displacement_, speed_}; }
+    void restore(const std::vector<double>& state) override { displacement_ = state.at(0), speed_ = state.at(1); }
+
+    /// Present place of its face, m.
+    double position() const { return start_ + displacement_; }
+    double displacement() const { return displacement_; }
+
+ private:
+    double start_;
+    std::function<double(double, double)> velocity_;
+    double displacement_ = 0, speed_ = 0;
+};
+
+/// The velocity of eq. (6), brought back slowly: the mean mass flux of the waves would carry the wall away.
+/// v = u_B(x_wall, t) - (x_wall - x_start) / return_time
+double returning_wall_velocity(double wave_velocity, double displacement, double return_time);
+
+}  // namespace cmps

@@ -1,0 +1,104 @@
+#include "cmps/gauges.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cmps/flow_grid.hpp"
+#include "cmps/kernel.hpp"
+
+namespace cmps {
+namespace {
+
+constexpr double pi = 3.14159265358979;
+
+}  // namespace
+
+double surface_elevation(const Particles& particles, const Solid& solid, double spacing, double x) {
+    const double reach = 2.1 * spacing;
+    std::vector<std::array<double, 2>> near;  // distance in x, z
+    double low = 1e300, high = -1e300;
+    for (std::size_t j = 0; j < particles.size(); ++j)
+        if (std::abs(particles.x[j] - x) < reach) {
+            near.push_back({particles.x[j] - x, particles.z[j]});
+            low = std::min(low, particles.z[j]), high = std::max(high, particles.z[j]);
+        }
+    if (near.empty()) return 0.0;
+    const auto free = solid.free_intervals(x, low - reach, high + 2 * reach);
+    const double bottom = free.empty() ? high : free.back()[0];
+    const WendlandKernel kernel{reach};
+    const double full = pi * reach * reach / 7.0 / (spacing * spacing);
+    const auto filled = [&](double z) {
+        double sum = 0;
+        for (const auto& [dx, pz] : near) sum += kernel.weight(dx * dx + (pz - z) * (pz - z));
+        return sum / full;
+    };
+    const double step = 0.25 * spacing;
+    double below = filled(bottom + 0.5 * spacing);
+    if (below < 0.5) return bottom;
+    for (double z = bottom + 0.5 * spacing + step; z < high + 2 * reach; z += step) {
+        const double here = filled(z);
+        if (here < 0.5) return z - step * (0.5 - here) / (below - here);
+        below = here;
+    }
+    return high;
+}
+
+double pressure_at(const Particles& particles, double spacing, double x, double z, double diameter) {
+    const double reach = std::max(0.5 * diameter, spacing);
+    double sum = 0, weights = 0, water_sum = 0, water_weights = 0;
+    for (std::size_t j = particles.first_wall(); j < particles.size(); ++j) {
+        const double dx = particles.x[j] - x, dz = particles.z[j] - z;
+        if (particles.is_fluid(j)) {
+            const double r = std::hypot(dx, dz), w = std::max(0.0, 1.0 - r / reach);
+            water_sum += w * particles.pressure[j], water_weights += w;
+        } else {
+            // walls stand half a spacing behind their face: distance is taken along it
+            const double across = dx * particles.normal_x[j] + dz * particles.normal_z[j];
+            const double along = -dx * particles.normal_z[j] + dz * particles.normal_x[j];
+            if (std::abs(across + 0.5 * spacing) > 0.6 * spacing) continue;
+            const double w = std::max(0.0, 1.0 - std::abs(along) / reach);
+            sum += w * particles.pressure[j], weights += w;
+        }
+    }
+    if (weights > 0) return sum / weights;
+    return water_weights > 0 ? water_sum / water_weights : 0.0;
+}
+
+std::array<double, 2> velocity_at(const Particles& particles, double spacing, double x, double z) {
+    const WendlandKernel kernel{2.1 * spacing};
+    double m[6] = {}, u[3] = {}, w[3] = {};
+    for (std::size_t j = particles.first_fluid(); j < particles.size(); ++j) {
+        const double dx = particles.x[j] - x, dz = particles.z[j] - z, weight = kernel.weight(dx * dx + dz * dz);
+        if (weight <= 0) continue;
+        m[0] += weight, m[1] += weight * dx, m[2] += weight * dz;
+        m[3] += weight * dx * dx, m[4] += weight * dx * dz, m[5] += weight * dz * dz;
+        u[0] += weight * particles.u[j], u[1] += weight * particles.u[j] * dx, u[2] += weight * particles.u[j] * dz;
+        w[0] += weight * particles.w[j], w[1] += weight * particles.w[j] * dx, w[2] += weight * particles.w[j] * dz;
+    }
+    const double scale = spacing * spacing;
+    return {linear_fit(m, u, scale), linear_fit(m, w, scale)};
+}
+
+std::array<double, 2> force_on(const Particles& particles, double spacing, std::int32_t body) {
+    std::array<double, 2> force = {0, 0};
+    for (std::size_t j = particles.first_wall(); j < particles.first_fluid(); ++j)
+        if (particles.body[j] == body) {
+            force[0] -= particles.pressure[j] * particles.normal_x[j] * spacing;
+            force[1] -= particles.pressure[j] * particles.normal_z[j] * spacing;
+        }
+    return force;
+}
+
+double volume_by_surface(const Particles& particles, const Solid& solid, double spacing, double x0, double x1) {
+    const int columns = std::max(1, static_cast<int>((x1 - x0) / (2 * spacing)));
+    const double width = (x1 - x0) / columns;
+    double volume = 0;
+    for (int c = 0; c < columns; ++c) {
+        const double x = x0 + (c + 0.5) * width;
+        const double top = surface_elevation(particles, solid, spacing, x);
+        for (const auto& [low, high] : solid.free_intervals(x, -1e3, top)) volume += (high - low) * width;
+    }
+    return volume;
+}
+
+}  // namespace cmps

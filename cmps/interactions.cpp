@@ -1,0 +1,64 @@
+#include "cmps/interactions.hpp"
+
+#include <cmath>
+
+#include "common/parallel.hpp"
+
+namespace cmps {
+
+template <class Kernel>
+void compute_interactions(const Kernel& kernel, const Particles& particles, const NeighbourLists& lists,
+                          PairExtras extras, Interactions& out) {
+    const std::size_t first = particles.first_wall(), rows = particles.size() - first;
+    const std::size_t entries = lists.neighbour.size();
+    for (auto* array : {&out.dx, &out.dz, &out.weight, &out.weight_over_r2}) array->resize(entries);
+    if (extras.slope) out.slope.resize(entries);
+    if (extras.curvature) out.curvature.resize(entries);
+    for (auto* array : {&out.number_density, &out.asymmetry_x, &out.asymmetry_z, &out.crowding_x, &out.crowding_z,
+                        &out.moment_xx, &out.moment_xz, &out.moment_zz})
+        array->resize(rows);
+
+    const double* const x = particles.x.data();
+    const double* const z = particles.z.data();
+    const std::int32_t* const neighbour = lists.neighbour.data();
+    double* const all_dx = out.dx.data();
+    double* const all_dz = out.dz.data();
+    double* const all_w = out.weight.data();
+    double* const all_g = out.weight_over_r2.data();
+
+    common::parallel_for(rows, 2000, [&](std::size_t r) {
+        const double xi = x[first + r], zi = z[first + r];
+        const std::uint32_t begin = lists.start[r], carriers = lists.carriers[r], end = lists.start[r + 1];
+        double n = 0, fx = 0, fz = 0, sx = 0, sz = 0;
+#pragma omp simd reduction(+ : n, fx, fz, sx, sz)
+        for (std::uint32_t k = begin; k < end; ++k) {
+            const std::int32_t j = neighbour[k];
+            const double dx = x[j] - xi, dz = z[j] - zi, r2 = dx * dx + dz * dz;
+            const double w = kernel.weight(r2), over_r = w / std::sqrt(r2), g = w / r2;
+            all_dx[k] = dx, all_dz[k] = dz, all_w[k] = w, all_g[k] = g;
+            n += w, fx += over_r * dx, fz += over_r * dz, sx += g * dx, sz += g * dz;
+        }
+        double xx = 0, xz = 0, zz = 0;
+#pragma omp simd reduction(+ : xx, xz, zz)
+        for (std::uint32_t k = carriers; k < end; ++k) {
+            const double g = all_g[k], dx = all_dx[k], dz = all_dz[k];
+            xx += g * dx * dx, xz += g * dx * dz, zz += g * dz * dz;
+        }
+        out.number_density[r] = n;
+        out.asymmetry_x[r] = fx, out.asymmetry_z[r] = fz;
+        out.crowding_x[r] = sx, out.crowding_z[r] = sz;
+        out.moment_xx[r] = xx, out.moment_xz[r] = xz, out.moment_zz[r] = zz;
+    });
+    const auto add = [&](std::vector<double>& values, const auto& of_r2) {
+        common::parallel_for(entries, 50000, [&](std::size_t k) {
+            values[k] = of_r2(all_dx[k] * all_dx[k] + all_dz[k] * all_dz[k]);
+        });
+    };
+    if (extras.slope) add(out.slope, [&](double r2) { return kernel.slope(r2); });
+    if (extras.curvature) add(out.curvature, [&](double r2) { return kernel.curvature(r2); });
+}
+
+template void compute_interactions(const RationalKernel&, const Particles&, const NeighbourLists&, PairExtras, Interactions&);
+template void compute_interactions(const WendlandKernel&, const Particles&, const NeighbourLists&, PairExtras, Interactions&);
+
+}  // namespace cmps

@@ -1,0 +1,125 @@
+/// cmps: the near field at the structure, with corrected moving particles (2D, free surface).
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "cmps/effect_rules.hpp"
+#include "cmps/scene.hpp"
+#include "cmps/simulation.hpp"
+#include "common/errors.hpp"
+#include "common/output_folder.hpp"
+#include "common/parallel.hpp"
+#include "common/progress.hpp"
+#include "common/run_record.hpp"
+#include "common/stage_command.hpp"
+#include "common/window_channel.hpp"
+
+namespace {
+
+const std::vector<common::ExpectedDataset> wave_datasets = {{"/time", "s", {"nt"}},
+                                                            {"/x", "m", {"nx"}},
+                                                            {"/still_water_depth", "m", {"nx"}},
+                                                            {"/surface_elevation", "m", {"nt", "nx"}},
+                                                            {"/velocity", "m/s", {"nt", "nx"}}};
+
+/// Time at which the near field starts, s.
+double start_time(const cmps::Scene& scene, cmps::WaveField* waves) {
+    if (scene.start) return *scene.start;
+    if (!waves || !scene.has_effect("start_at_arrival")) return 0.0;
+    const double arrival = waves->arrival(scene.offshore, scene.arrival_threshold, 0.0);
+    if (arrival < 0)
+        throw common::InputError(fmt::format("the waves never reach cmps.offshore = {:g} m: |surface elevation| stays below {:g} m", scene.offshore, scene.arrival_threshold));
+    // whole windows, so that this stage's windows are those of the stage before
+    return std::floor(arrival / scene.time.window) * scene.time.window;
+}
+
+int check(const common::SceneFile& file, const cmps::Scene& scene, bool all) {
+    if (all) std::cout << file.reference();
+    for (const auto& effect : scene.effects)
+        std::cout << fmt::format("{:<20} {:<4} {}\n", effect.name, effect.is_on ? "on" : "off", effect.reason);
+    return common::exit_done;
+}
+
+int run(const common::StageCommand& command, const common::SceneFile& file, const cmps::Scene& scene) {
+    std::optional<common::WindowReader> reader;
+    std::optional<cmps::WaveField> waves;
+    std::string upstream;
+    if (scene.drive == cmps::Drive::waves) {
+        if (command.upstream.empty()) throw common::InputError("cmps run: --waves DIR is needed, for cmps.drive = \"waves\"");
+        reader.emplace(command.upstream, "boussinesq", wave_datasets, command.follow);
+        upstream = reader->first().scene_digest;
+        const double reach = scene.boundary == cmps::Boundary::paper ? 0.5 : scene.relaxation_length + 0.5;
+        waves.emplace(*reader, scene.offshore - 0.5, scene.offshore + reach);
+        if (!command.follow && reader->available_until() < scene.time.end - 1e-9)
+            throw common::InputError(fmt::format("{}: the wave windows end at t = {:g} s, before time.end = {:g} s",
+                                                 command.upstream.string(), reader->available_until(), scene.time.end));
+    }
+    common::OutputFolder folder(command.out, {"cmps", file.digest(upstream), upstream}, command.resume);
+    if (folder.start() == common::OutputFolder::Start::nothing_to_do) return common::exit_done;
+    const bool goes_on = folder.start() == common::OutputFolder::Start::go_on;
+    const double start = goes_on ? folder.state().at("/run").doubles()[0] : start_time(scene, waves ? &*waves : nullptr);
+    if (start >= scene.time.end) throw common::InputError(fmt::format("time.end = {:g} s lies before the near field starts, t = {:g} s", scene.time.end, start));
+    if (waves) waves->cover(start, start);
+
+    common::RunRecord record(command.out, "cmps");
+    record.describe_scene(file);
+    record.set_digests(file.digest(upstream), upstream);
+    record.set_effects(scene.effects);
+    cmps::Simulation simulation(scene, waves ? &*waves : nullptr, start);
+    if (goes_on)
+        simulation.restore(folder.state());
+    else
+        folder.write_geometry(simulation.geometry());
+
+    const common::WindowClock clock(start, scene.time.end, scene.time.window);
+    common::Progress progress("cmps", start, scene.time.end, command.quiet);
+    record.set_windows(folder.next_window());
+    record.write_running();
+    try {
+        for (std::int64_t index = folder.next_window(); index < clock.window_count(); ++index) {
+            common::Window window = simulation.advance_window(clock, index, [&](double time) {
+                progress.update(time, fmt::format("{} particles", simulation.field().particles.fluid));
+                common::check_for_interrupt();
+            });
+            folder.publish(std::move(window), simulation.state());
+            record.add_window();
+            simulation.describe(record);
+            record.write_running();
+        }
+    } catch (const common::Interrupted&) {
+        record.write_ended("interrupted");
+        throw;
+    } catch (const std::exception& error) {
+        simulation.describe(record);
+        record.write_ended("failed", error.what());
+        throw;
+    }
+    const cmps::PhaseSeconds& seconds = simulation.field().seconds;
+    record.add_phase_time("neighbours", seconds.neighbours);
+    record.add_phase_time("geometry", seconds.geometry);
+    record.add_phase_time("assembly", seconds.assembly);
+    record.add_phase_time("pressure solve", seconds.solve);
+    record.add_phase_time("gradient", seconds.gradient);
+    record.add_phase_time("motion", seconds.motion);
+    for (const auto& effect : simulation.field().effects) record.add_phase_time(effect->name(), effect->seconds);
+    record.write_ended("done");
+    progress.finish(fmt::format("{} steps", simulation.field().counts.steps));
+    return common::exit_done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return common::run_guarded("cmps", [&] {
+        const auto command = common::read_stage_command(
+            argc, argv, {.program = "cmps", .description = "near field at the structure: corrected moving particles", .upstream_option = "--waves"});
+        common::use_threads(command.threads);
+        const auto file = common::SceneFile::read(command.scene, command.overrides);
+        cmps::Scene scene = cmps::read_scene(file);
+        cmps::decide_effects(file, scene);
+        file.finish();
+        if (command.verb == common::StageCommand::Verb::check) return check(file, scene, command.all);
+        return run(command, file, scene);
+    });
+}

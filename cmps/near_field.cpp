@@ -1,0 +1,261 @@
+#include "cmps/near_field.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/errors.hpp"
+#include "common/parallel.hpp"
+#include "common/run_record.hpp"
+
+namespace cmps {
+namespace {
+
+constexpr double skin_ratio = 0.3;       // of l0; lists live for about ten steps
+constexpr std::size_t serial_below = 4000;
+
+std::variant<RationalKernel, WendlandKernel> make_kernel(const Settings& settings) {
+    const double radius = settings.kernel_radius_ratio * settings.spacing;
+    if (settings.kernel == KernelKind::rational) return RationalKernel{radius};
+    return WendlandKernel{radius};
+}
+
+LatticeConstants constants_of(const Settings& settings) {
+    return std::visit([&](const auto& kernel) { return lattice_constants(kernel, settings.spacing); },
+                      make_kernel(settings));
+}
+
+}  // namespace
+
+NearField::NearField(const Settings& chosen, Particles initial)
+    : settings(chosen),
+      lattice(constants_of(chosen)),
+      particles(std::move(initial)),
+      search(chosen.kernel_radius_ratio * chosen.spacing, skin_ratio * chosen.spacing),
+      equation(chosen.pressure, lattice),
+      kernel_(make_kernel(chosen)),
+      solver_(chosen.tolerance, chosen.most_iterations),
+      gradient_(chosen.gradient, lattice.number_density) {}
+
+double NearField::largest_step() const {
+    const double l0 = settings.spacing;
+    const double g = std::hypot(settings.gravity_x, settings.gravity_z);
+    double step = 0.4 * l0 / std::sqrt(g * std::max(settings.depth, l0));
+    if (largest_speed_ > 0) step = std::min(step, settings.courant * l0 / largest_speed_);
+    if (largest_acceleration_ > 0) step = std::min(step, 0.25 * std::sqrt(l0 / largest_acceleration_));
+    return step;
+}
+
+void NearField::advance(double time, double step) {
+    old_u_ = particles.u;
+    old_w_ = particles.w;
+    const bool is_midpoint = settings.time_stepping == TimeStepping::midpoint;
+    const auto run_effects = [&](auto member, double at) {
+        for (const auto& effect : effects) {
+            const common::PhaseTimer timer(effect->seconds);
+            ((*effect).*member)(*this, at, step);
+        }
+    };
+    const auto fall = [&] {
+        for (std::size_t i = particles.first_fluid(); i < particles.size(); ++i)
+            particles.u[i] += step * settings.gravity_x, particles.w[i] += step * settings.gravity_z;
+    };
+
+    run_effects(&Effect::begin_step, time);
+    if (is_midpoint) {
+        drift(0.5 * step);
+        fall();
+    } else {
+        fall();
+        drift(step);
+    }
+    update_geometry();
+    run_effects(&Effect::accelerate, time);
+    solve_pressure(step);
+    apply_gradient(step);
+    if (is_midpoint) drift(0.5 * step);
+    shift();
+    run_effects(&Effect::end_step, time + step);
+    check(time, step);
+    ++counts.steps;
+}
+
+void NearField::drift(double step) {
+    const common::PhaseTimer timer(seconds.motion);
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+        particles.x[i] += step * particles.u[i];
+        particles.z[i] += step * particles.w[i];
+    }
+}
+
+void NearField::update_geometry() {
+    {
+        const common::PhaseTimer timer(seconds.neighbours);
+        if (++steps_since_sort_ > steps_between_sorts) {
+            // velocities before the step travel with the particles
+            particles.acceleration_x.swap(old_u_), particles.acceleration_z.swap(old_w_);
+            search.sort_fluid(particles, 2.0 * settings.spacing);
+            particles.acceleration_x.swap(old_u_), particles.acceleration_z.swap(old_w_);
+            steps_since_sort_ = 0;
+        }
+        if (search.update(particles)) ++counts.list_builds;
+    }
+    const common::PhaseTimer timer(seconds.geometry);
+    std::visit([&](const auto& kernel) {
+        compute_interactions(kernel, particles, search.lists(), equation.extras(), interactions);
+    }, kernel_);
+    find_free_surface(particles, search.lists(), interactions, lattice.number_density, place);
+}
+
+void NearField::solve_pressure(double step) {
+    {
+        const common::PhaseTimer timer(seconds.assembly);
+        equation.assemble(particles, search.lists(), interactions, place, step);
+    }
+    const common::PhaseTimer timer(seconds.solve);
+    const std::size_t first = particles.first_wall(), unknowns = equation.row_of.size();
+    unknown_pressure_.resize(unknowns);
+    for (std::size_t a = 0; a < unknowns; ++a) unknown_pressure_[a] = particles.pressure[first + equation.row_of[a]];
+    const SolveReport report = solver_.solve(equation.matrix, equation.right_hand_side, unknown_pressure_);
+    counts.iterations += report.iterations;
+    if (!report.is_converged) ++counts.unconverged;
+    std::fill(particles.pressure.begin(), particles.pressure.end(), 0.0);
+    const double lowest = settings.negative_pressure ? -std::numeric_limits<double>::infinity() : 0.0;
+    for (std::size_t a = 0; a < unknowns; ++a)
+        particles.pressure[first + equation.row_of[a]] = std::max(unknown_pressure_[a], lowest);
+}
+
+void NearField::apply_gradient(double step) {
+    const common::PhaseTimer timer(seconds.gradient);
+    gradient_.evaluate(particles, search.lists(), interactions, gradient_x_, gradient_z_);
+    const std::size_t first = particles.first_fluid();
+    const double factor = step / settings.pressure.density;
+    const double back = settings.time_stepping == TimeStepping::predicted ? step : 0.0;  // r = r* + dt u'
+    for (std::size_t f = 0; f < particles.fluid; ++f) {
+        const double du = -factor * gradient_x_[f], dw = -factor * gradient_z_[f];
+        particles.u[first + f] += du, particles.w[first + f] += dw;
+        particles.x[first + f] += back * du, particles.z[first + f] += back * dw;
+    }
+    double strongest = 0;  // of gravity, pressure and effects: contacts are instantaneous and limit no step
+    for (std::size_t i = first; i < particles.size(); ++i) {
+        const double du = particles.u[i] - old_u_[i], dw = particles.w[i] - old_w_[i];
+        strongest = std::max(strongest, (du * du + dw * dw) / (step * step));
+    }
+    push_apart(step);
+    const double share = acceleration_smoothing > step ? step / acceleration_smoothing : 1.0;
+    double fastest = 0;
+    for (std::size_t i = first; i < particles.size(); ++i) {
+        const double ax = (particles.u[i] - old_u_[i]) / step, az = (particles.w[i] - old_w_[i]) / step;
+        particles.acceleration_x[i] += share * (ax - particles.acceleration_x[i]);
+        particles.acceleration_z[i] += share * (az - particles.acceleration_z[i]);
+        fastest = std::max(fastest, particles.u[i] * particles.u[i] + particles.w[i] * particles.w[i]);
+    }
+    largest_speed_ = std::sqrt(fastest);
+    largest_acceleration_ = std::sqrt(strongest);
+}
+
+/// Dynamic stabilisation, collisions and wall contact, for pairs that the pressure has left too near each other.
+///
+/// DS: below 0.9 l0 half the missing distance is made up over the reference step (all of it at walls); the push is
+/// capped at 0.1 l0, so that a small adaptive step does not feed it. Collisions: below 0.5 l0 approaching pairs meet
+/// with restitution 0.2. Contact: no particle crosses the face that its nearest wall particle stands behind.
+void NearField::push_apart(double step) {
+    const std::size_t first = particles.first_fluid(), walls = particles.walls;
+    const double l0 = settings.spacing, reach = settings.stabilisation * l0, touching = 0.5 * l0;
+    const double g = std::hypot(settings.gravity_x, settings.gravity_z);
+    const double reference_step = 0.4 * l0 / std::sqrt(g * std::max(settings.depth, l0));
+    const double push_step = std::max(step, reference_step);
+    constexpr double restitution = 0.2;
+    change_u_.assign(particles.fluid, 0.0);
+    change_w_.assign(particles.fluid, 0.0);
+    const NeighbourLists& lists = search.lists();
+    common::parallel_for(particles.fluid, serial_below / 2, [&](std::size_t f) {
+        const std::size_t row = walls + f, i = first + f;
+        const double ui = particles.u[i], wi = particles.w[i];
+        const double near2 = std::max(reach, l0) * std::max(reach, l0);
+        double du = 0, dw = 0;
+        for (std::uint32_t k = lists.start[row]; k < lists.start[row + 1]; ++k) {
+            const double dx = interactions.dx[k], dz = interactions.dz[k], r2 = dx * dx + dz * dz;
+            if (r2 >= near2) continue;
+            const std::size_t j = static_cast<std::size_t>(lists.neighbour[k]);
+            const double r = std::sqrt(r2), share = j >= first ? 0.5 : 1.0;
+            if (r < reach) {
+                const double push = share * std::min(reach - r, 0.1 * l0) * step / (push_step * push_step);
+                du -= push * dx / r, dw -= push * dz / r;
+            }
+            if (r < touching) {
+                const double approach = ((particles.u[j] - ui) * dx + (particles.w[j] - wi) * dz) / r;
+                if (approach < 0) {
+                    const double kick = share * (1 + restitution) * approach;
+                    du += kick * dx / r, dw += kick * dz / r;
+                }
+            }
+            if (j < first && j >= particles.first_wall()) {
+                const double nx = particles.normal_x[j], nz = particles.normal_z[j];
+                const double gap = -(dx * nx + dz * nz) - 0.5 * l0;  // from the face
+                const double sideways = std::abs(-dx * nz + dz * nx);
+                if (gap < 0.1 * l0 && sideways < 0.45 * l0) {
+                    const double speed = (ui + du - particles.u[j]) * nx + (wi + dw - particles.w[j]) * nz;
+                    const double wanted = (0.1 * l0 - gap) / push_step;  // back out within a reference step
+                    if (speed < wanted) du += (wanted - speed) * nx, dw += (wanted - speed) * nz;
+                }
+            }
+        }
+        change_u_[f] = du, change_w_[f] = dw;
+    });
+    for (std::size_t f = 0; f < particles.fluid; ++f)
+        particles.u[first + f] += change_u_[f], particles.w[first + f] += change_w_[f];
+}
+
+/// Particle shifting: dr = -0.3 (l0^2/n0) sum w r_ij / r^2, at most 0.05 l0; none at the surface, along it next to it.
+void NearField::shift() {
+    if (settings.shifting == 0) return;
+    const common::PhaseTimer timer(seconds.motion);
+    const std::size_t first = particles.first_fluid(), walls = particles.walls;
+    const double l0 = settings.spacing, factor = settings.shifting * l0 * l0 / lattice.number_density;
+    const double limit = 0.05 * l0;
+    for (std::size_t f = 0; f < particles.fluid; ++f) {
+        const std::size_t row = walls + f;
+        if (place[row] == Place::surface) continue;
+        double sx = -factor * interactions.crowding_x[row], sz = -factor * interactions.crowding_z[row];
+        if (place[row] == Place::near_surface) {
+            const double fx = interactions.asymmetry_x[row], fz = interactions.asymmetry_z[row];
+            const double f2 = fx * fx + fz * fz;
+            if (f2 > 0) {
+                const double across = (sx * fx + sz * fz) / f2;
+                sx -= across * fx, sz -= across * fz;
+            }
+        }
+        const double size = std::hypot(sx, sz), scale = size > limit ? limit / size : 1.0;
+        particles.x[first + f] += scale * sx;
+        particles.z[first + f] += scale * sz;
+    }
+}
+
+void NearField::settle(int sweeps, double surface_level) {
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+        old_u_ = particles.u, old_w_ = particles.w;
+        update_geometry();
+        shift();
+    }
+    for (std::size_t i = particles.first_wall(); i < particles.size(); ++i)
+        particles.pressure[i] =
+            std::max(0.0, -settings.gravity_z * settings.pressure.density * (surface_level - particles.z[i]));
+}
+
+void NearField::check(double time, double step) const {
+    const double g = std::hypot(settings.gravity_x, settings.gravity_z);
+    // free fall over five depths: no water in the scene is faster
+    const double limit = 5.0 * std::sqrt(2.0 * std::max(g, 1.0) * std::max(settings.depth, settings.spacing)) + 5.0;
+    if (largest_speed_ < limit) return;
+    std::size_t worst = particles.first_fluid();
+    for (std::size_t i = worst; i < particles.size(); ++i)
+        if (!(std::hypot(particles.u[i], particles.w[i]) <= std::hypot(particles.u[worst], particles.w[worst]))) worst = i;
+    throw common::RunError(fmt::format(
+        "unstable at t = {:.4f} s (step {} of {:.2e} s): particle {} at ({:.3f}, {:.3f}) m moves at {:.3g} m/s, limit {:.3g}",
+        time + step, counts.steps, step, particles.identity[worst], particles.x[worst], particles.z[worst],
+        std::hypot(particles.u[worst], particles.w[worst]), limit));
+}
+
+}  // namespace cmps

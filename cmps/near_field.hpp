@@ -1,0 +1,102 @@
+/// The near field: particles, and one time step of the corrected moving-particle semi-implicit method.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "cmps/free_surface.hpp"
+#include "cmps/gradient.hpp"
+#include "cmps/interactions.hpp"
+#include "cmps/neighbours.hpp"
+#include "cmps/particles.hpp"
+#include "cmps/pressure_equation.hpp"
+#include "cmps/pressure_solver.hpp"
+#include "cmps/settings.hpp"
+
+namespace cmps {
+
+class NearField;
+
+/// An optional effect: composed at start; one that is off does not exist.
+class Effect {
+ public:
+    virtual ~Effect() = default;
+    virtual std::string name() const = 0;
+    /// Before the particles move: sets velocities of walls (m/s), or gravity.
+    virtual void begin_step(NearField&, double /*time*/, double /*step*/) {}
+    /// Adds to the velocities what acts beside gravity and pressure; interactions are current.
+    virtual void accelerate(NearField&, double /*time*/, double /*step*/) {}
+    /// After positions and velocities are those of `time`.
+    virtual void end_step(NearField&, double /*time*/, double /*step*/) {}
+    /// What it must remember to go on bit for bit.
+    virtual std::vector<double> state() const { return {}; }
+    virtual void restore(const std::vector<double>&) {}
+    double seconds = 0;  ///< wall time it took
+};
+
+/// Wall time of a run by part of the step, s.
+struct PhaseSeconds {
+    double neighbours = 0, geometry = 0, assembly = 0, solve = 0, gradient = 0, motion = 0;
+};
+
+/// What the steps so far have met.
+struct StepCounts {
+    std::size_t steps = 0, iterations = 0, list_builds = 0, unconverged = 0, wall_contacts = 0, collisions = 0;
+};
+
+class NearField {
+ public:
+    NearField(const Settings& settings, Particles initial);
+
+    /// Spreads the particles evenly by shifting alone (before the first step), then sets hydrostatic pressure.
+    void settle(int sweeps, double surface_level);
+    /// Largest step now, s: 0.2 l0/u, 0.4 l0/sqrt(g h), 0.25 sqrt(l0/a).
+    double largest_step() const;
+    /// One step from `time` to `time + step`. Throws RunError when it goes wrong.
+    void advance(double time, double step);
+
+    Settings settings;
+    LatticeConstants lattice;
+    Particles particles;
+    std::vector<std::unique_ptr<Effect>> effects;
+
+    NeighbourSearch search;
+    Interactions interactions;    ///< at the positions of the last pressure solve
+    std::vector<Place> place;     ///< per carrier row
+    PressureEquation equation;
+    PhaseSeconds seconds;
+    StepCounts counts;
+
+    /// Lists and order are built anew before the next step (at every window, so that a resumed run repeats it).
+    void invalidate_order() { steps_since_sort_ = steps_between_sorts; }
+
+ private:
+    static constexpr int steps_between_sorts = 50;
+    void drift(double step);
+    void update_geometry();
+    void solve_pressure(double step);
+    void apply_gradient(double step);
+    void push_apart(double step);
+    void shift();
+    void check(double time, double step) const;
+
+    std::variant<RationalKernel, WendlandKernel> kernel_;
+    PressureSolver solver_;
+    GradientTerm gradient_;
+    int steps_since_sort_ = steps_between_sorts;
+    std::vector<double> gradient_x_, gradient_z_, unknown_pressure_, old_u_, old_w_, change_u_, change_w_;
+    double largest_speed_ = 0, largest_acceleration_ = 0;
+
+ public:
+    double acceleration_smoothing = 0;  ///< s: time over which Du/Dt is averaged along the path
+    double largest_speed() const { return largest_speed_; }
+    /// Largest speed and acceleration decide the next step; part of the state.
+    std::vector<double> step_state() const { return {largest_speed_, largest_acceleration_}; }
+    void restore_step_state(const std::vector<double>& state) {
+        largest_speed_ = state[0], largest_acceleration_ = state[1];
+    }
+};
+
+}  // namespace cmps

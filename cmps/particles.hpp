@@ -1,0 +1,49 @@
+/// Particles as arrays, in the order dummies | walls | fluid.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace cmps {
+
+/// What a boundary particle belongs to.
+enum Body : std::int32_t { body_bed = -1, body_moving_wall = -2, body_end_wall = -3 };  // >= 0: structure polygon
+
+/// Dummies only fill the kernel behind a wall; walls (one layer) and fluid carry pressure.
+/// Pressure carriers are contiguous: [first_wall(), size()).
+struct Particles {
+    std::size_t dummies = 0, walls = 0, fluid = 0;
+    std::vector<double> x, z;      ///< position, m
+    std::vector<double> u, w;      ///< velocity, m/s
+    std::vector<double> pressure;  ///< Pa, gauge
+    std::vector<double> acceleration_x, acceleration_z;  ///< Du/Dt along the path, smoothed, m/s2
+    std::vector<std::int32_t> identity;                  ///< lasting number of a fluid particle
+    std::vector<std::int32_t> body;                      ///< of boundary particles; fluid: 0
+    std::vector<double> normal_x, normal_z;              ///< of boundary particles, into the water
+
+    std::size_t size() const { return dummies + walls + fluid; }
+    std::size_t first_wall() const { return dummies; }
+    std::size_t first_fluid() const { return dummies + walls; }
+    bool is_fluid(std::size_t i) const { return i >= first_fluid(); }
+
+    template <class Visit>
+    void for_each_array(const Visit& visit) {
+        visit(x), visit(z), visit(u), visit(w), visit(pressure), visit(acceleration_x), visit(acceleration_z);
+        visit(identity), visit(body), visit(normal_x), visit(normal_z);
+    }
+
+    /// Appends a fluid particle at rest.
+    void add_fluid(double at_x, double at_z, std::int32_t number) {
+        for_each_array([](auto& array) { array.push_back({}); });
+        x.back() = at_x, z.back() = at_z, identity.back() = number;
+        ++fluid;
+    }
+    /// Removes fluid particle i; the last one takes its place.
+    void remove_fluid(std::size_t i) {
+        for_each_array([i](auto& array) { array[i] = array.back(), array.pop_back(); });
+        --fluid;
+    }
+};
+
+}  // namespace cmps

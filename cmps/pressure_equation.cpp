@@ -1,0 +1,95 @@
+#include "cmps/pressure_equation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cmps/gradient.hpp"
+#include "common/parallel.hpp"
+
+namespace cmps {
+
+double PressureEquation::divergence(const Particles& particles, const NeighbourLists& lists,
+                                    const Interactions& interactions, std::size_t row) const {
+    const std::size_t i = particles.first_wall() + row;
+    const double ui = particles.u[i], wi = particles.w[i];
+    const double* const u = particles.u.data();
+    const double* const w = particles.w.data();
+    const double* const dx = interactions.dx.data();
+    const double* const dz = interactions.dz.data();
+    const std::int32_t* const neighbour = lists.neighbour.data();
+    if (settings_.source == Source::corrected) {
+        const double* const g = interactions.weight_over_r2.data();
+        double xx = 0, xz = 0, zx = 0, zz = 0;  // sum u_ij r_ij^T w / r^2
+#pragma omp simd reduction(+ : xx, xz, zx, zz)
+        for (std::uint32_t k = lists.carriers[row]; k < lists.start[row + 1]; ++k) {
+            const double du = (u[neighbour[k]] - ui) * g[k], dw = (w[neighbour[k]] - wi) * g[k];
+            xx += du * dx[k], xz += du * dz[k], zx += dw * dx[k], zz += dw * dz[k];
+        }
+        const Correction c = correction_of(interactions, row, lattice_.number_density);
+        return 2.0 / lattice_.number_density * (c.xx * xx + c.xz * (xz + zx) + c.zz * zz);
+    }
+    const double* const slope = interactions.slope.data();
+    double sum = 0;
+#pragma omp simd reduction(+ : sum)
+    for (std::uint32_t k = lists.start[row]; k < lists.start[row + 1]; ++k)
+        sum -= slope[k] * (dx[k] * (u[neighbour[k]] - ui) + dz[k] * (w[neighbour[k]] - wi));
+    return sum / (lattice_.number_density * lattice_.divergence_scale);
+}
+
+void PressureEquation::assemble(const Particles& particles, const NeighbourLists& lists,
+                                const Interactions& interactions, const std::vector<Place>& place,
+                                double time_step) {
+    const std::size_t first = particles.first_wall(), rows = particles.size() - first;
+    unknown_of.resize(rows);
+    row_of.clear();
+    for (std::size_t r = 0; r < rows; ++r) {
+        const bool is_unknown = place[r] != Place::surface;
+        unknown_of[r] = is_unknown ? static_cast<std::int32_t>(row_of.size()) : -1;
+        if (is_unknown) row_of.push_back(static_cast<std::int32_t>(r));
+    }
+    const std::size_t unknowns = row_of.size();
+    matrix.start.resize(unknowns + 1);
+    matrix.upper.resize(unknowns);
+    matrix.diagonal.resize(unknowns);
+    matrix.column.resize(lists.neighbour.size());
+    matrix.value.resize(lists.neighbour.size());
+    right_hand_side.resize(unknowns);
+    density_error.resize(rows);
+
+    const bool is_higher_order = settings_.laplacian == Laplacian::higher_order;
+    const std::vector<double>& coefficient = is_higher_order ? interactions.curvature : interactions.weight;
+    // both are scaled to sum c (p_i - p_j) = -scale * laplacian(p) on the lattice
+    const double scale = is_higher_order ? lattice_.number_density * lattice_.laplacian_scale
+                                         : lattice_.number_density * lattice_.lambda / 4.0;
+    std::uint32_t next = 0;
+    matrix.start[0] = 0;
+    for (std::size_t a = 0; a < unknowns; ++a) {
+        const std::size_t row = static_cast<std::size_t>(row_of[a]);
+        double diagonal = 0;
+        matrix.upper[a] = next;
+        bool is_right = false;
+        for (std::uint32_t k = lists.carriers[row]; k < lists.start[row + 1]; ++k) {
+            const double c = coefficient[k];
+            diagonal += c;
+            const std::int32_t b = unknown_of[static_cast<std::size_t>(lists.neighbour[k]) - first];
+            if (b < 0 || c == 0) continue;
+            if (!is_right && b > static_cast<std::int32_t>(a)) is_right = true, matrix.upper[a] = next;
+            matrix.column[next] = b;
+            matrix.value[next++] = -c;
+        }
+        if (!is_right) matrix.upper[a] = next;
+        // a closed full box has no surface: the small excess makes it regular and fixes the mean
+        matrix.diagonal[a] = std::max(diagonal, 1e-3 * lattice_.number_density) * (1 + 1e-7);
+        matrix.start[a + 1] = next;
+    }
+    common::parallel_for(rows, 2000, [&](std::size_t row) {
+        const double n0 = lattice_.number_density;
+        density_error[row] = (interactions.number_density[row] - n0) / n0;
+        if (unknown_of[row] < 0) return;
+        double source = settings_.density_weight / time_step * density_error[row];
+        if (settings_.source != Source::density) source -= divergence(particles, lists, interactions, row);
+        right_hand_side[static_cast<std::size_t>(unknown_of[row])] = scale * settings_.density / time_step * source;
+    });
+}
+
+}  // namespace cmps

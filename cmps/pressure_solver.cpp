@@ -1,0 +1,91 @@
+#include "cmps/pressure_solver.hpp"
+
+#include <cmath>
+
+#include "common/parallel.hpp"
+
+namespace cmps {
+
+void IncompleteCholesky::factorise(const SparseMatrix& matrix) {
+    const std::size_t rows = matrix.rows();
+    start_.resize(rows + 1);
+    column_.resize(matrix.column.size());
+    factor_.resize(matrix.column.size());
+    inverse_diagonal_.resize(rows);
+    scaled_.assign(rows, 0.0);  // row i of L D, scattered
+    std::uint32_t next = 0;
+    start_[0] = 0;
+    for (std::size_t i = 0; i < rows; ++i) {
+        const std::uint32_t begin = next;
+        double pivot = matrix.diagonal[i];
+        for (std::uint32_t k = matrix.start[i]; k < matrix.upper[i]; ++k) {
+            const std::int32_t j = matrix.column[k];
+            double sum = matrix.value[k];
+            for (std::uint32_t m = start_[j]; m < start_[j + 1]; ++m) sum -= factor_[m] * scaled_[column_[m]];
+            scaled_[j] = sum;
+            const double l = sum * inverse_diagonal_[j];
+            pivot -= l * sum;
+            column_[next] = j;
+            factor_[next++] = l;
+        }
+        start_[i + 1] = next;
+        inverse_diagonal_[i] = 1.0 / pivot;
+        for (std::uint32_t m = begin; m < next; ++m) scaled_[column_[m]] = 0.0;
+    }
+}
+
+void IncompleteCholesky::apply(const std::vector<double>& r, std::vector<double>& z) {
+    const std::size_t rows = inverse_diagonal_.size();
+    const double* const factor = factor_.data();
+    const std::int32_t* const column = column_.data();
+    double* const out = z.data();
+    for (std::size_t i = 0; i < rows; ++i) {
+        double sum = r[i];
+        for (std::uint32_t k = start_[i]; k < start_[i + 1]; ++k) sum -= factor[k] * out[column[k]];
+        out[i] = sum;
+    }
+    for (std::size_t i = 0; i < rows; ++i) out[i] *= inverse_diagonal_[i];
+    for (std::size_t i = rows; i-- > 0;) {
+        const double value = out[i];
+        for (std::uint32_t k = start_[i]; k < start_[i + 1]; ++k) out[column[k]] -= factor[k] * value;
+    }
+}
+
+SolveReport PressureSolver::solve(const SparseMatrix& matrix, const std::vector<double>& b, std::vector<double>& x) {
+    const std::size_t rows = matrix.rows();
+    SolveReport report;
+    if (rows == 0) return {.iterations = 0, .residual = 0, .is_converged = true};
+    for (auto* array : {&residual_, &direction_, &product_, &preconditioned_}) array->resize(rows);
+    direction_.assign(rows, 0.0);
+    const auto dot = [rows](const std::vector<double>& a, const std::vector<double>& c) {
+        return common::ordered_sum(rows, [&](std::size_t i) { return a[i] * c[i]; });
+    };
+    const double target = tolerance_ * std::sqrt(dot(b, b));
+    multiply(matrix, x, product_);
+    for (std::size_t i = 0; i < rows; ++i) residual_[i] = b[i] - product_[i];
+    double norm = std::sqrt(dot(residual_, residual_));
+    if (norm > target) {
+        cholesky_.factorise(matrix);
+        double previous = 0;
+        while (norm > target && report.iterations < most_iterations_) {
+            cholesky_.apply(residual_, preconditioned_);
+            const double rz = dot(residual_, preconditioned_);
+            const double beta = report.iterations ? rz / previous : 0.0;
+            previous = rz;
+            for (std::size_t i = 0; i < rows; ++i) direction_[i] = preconditioned_[i] + beta * direction_[i];
+            multiply(matrix, direction_, product_);
+            const double alpha = rz / dot(direction_, product_);
+            for (std::size_t i = 0; i < rows; ++i) {
+                x[i] += alpha * direction_[i];
+                residual_[i] -= alpha * product_[i];
+            }
+            norm = std::sqrt(dot(residual_, residual_));
+            ++report.iterations;
+        }
+    }
+    report.is_converged = norm <= target;
+    report.residual = target > 0 ? norm / target * tolerance_ : 0.0;
+    return report;
+}
+
+}  // namespace cmps

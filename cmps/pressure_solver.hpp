@@ -1,0 +1,45 @@
+/// Conjugate gradients for the pressure equation, warm-started, with incomplete Cholesky or aggregation multigrid.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "cmps/sparse_matrix.hpp"
+
+namespace cmps {
+
+/// Incomplete Cholesky without fill, A ~ (L + D) D^-1 (L + D)^T, for M-matrices (it exists for them).
+class IncompleteCholesky {
+ public:
+    void factorise(const SparseMatrix& matrix);
+    /// z = M^-1 r
+    void apply(const std::vector<double>& r, std::vector<double>& z);
+
+ private:
+    std::vector<std::uint32_t> start_;
+    std::vector<std::int32_t> column_;
+    std::vector<double> factor_;  ///< unit lower triangle, strict part, by rows
+    std::vector<double> inverse_diagonal_, scaled_;
+};
+
+struct SolveReport {
+    std::size_t iterations = 0;
+    double residual = 0;  ///< |b - A x| / |b|
+    bool is_converged = false;
+};
+
+/// Solves A x = b to |r| <= tolerance |b| from the given x.
+class PressureSolver {
+ public:
+    PressureSolver(double tolerance, std::size_t most_iterations)
+        : tolerance_(tolerance), most_iterations_(most_iterations) {}
+    SolveReport solve(const SparseMatrix& matrix, const std::vector<double>& b, std::vector<double>& x);
+
+ private:
+    double tolerance_;
+    std::size_t most_iterations_;
+    IncompleteCholesky cholesky_;
+    std::vector<double> residual_, direction_, product_, preconditioned_;
+};
+
+}  // namespace cmps

@@ -1,0 +1,67 @@
+/// What the scene says to this stage, checked.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cmps/flow_grid.hpp"
+#include "cmps/settings.hpp"
+#include "cmps/solid.hpp"
+#include "common/run_record.hpp"
+#include "common/scene_file.hpp"
+#include "common/shared_sections.hpp"
+
+namespace cmps {
+
+enum class Drive { waves, piston, none };
+enum class Boundary { relaxation, paper, both };
+
+/// The stage's part of a scene.
+struct Scene {
+    common::TimeSection time;
+    std::vector<common::Gauge> gauges;
+    Settings settings;
+
+    // geometry, m
+    double offshore = 0, onshore = 0;
+    std::vector<Point> bed;
+    std::vector<Polygon> structure;
+    std::optional<std::array<double, 4>> tank;  ///< x0, x1, z0, z1
+    std::vector<Polygon> water;                 ///< empty: below z = 0 between the wall and the structure
+
+    // drive
+    Drive drive = Drive::waves;
+    std::filesystem::path piston_file, gravity_file;
+    Boundary boundary = Boundary::relaxation;
+    double crest_lowering = 0;       ///< h_of of eq. (7), m
+    double relaxation_length = 0;    ///< m
+    double relaxation_strength = 0;  ///< 1/s
+    double return_time = 0;          ///< s
+    std::optional<double> start;     ///< s; absent: at arrival of the waves
+    double arrival_threshold = 0;    ///< m
+    double viscosity = 0;            ///< kinematic, m2/s
+    double smagorinsky = 0;          ///< constant of the sub-particle turbulence
+
+    // output
+    FlowGridSettings flow;
+    bool has_flow = false;
+    double particles_interval = 0, acceleration_smoothing = 0;  ///< s
+
+    // effects, decided
+    std::vector<common::EffectRecord> effects;
+    bool has_effect(const std::string& name) const;
+};
+
+/// Reads and checks all keys; mistakes are noted in `file` and thrown by its finish().
+Scene read_scene(const common::SceneFile& file);
+
+/// Bed, structure and end walls of a scene. Tanks are closed on four sides.
+Solid make_solid(const Scene& scene);
+/// Bed level at x (m); of a tank its floor.
+double bottom_level(const Scene& scene, double x);
+/// Where still water behind the moving wall ends: the first x at which the solid stands above z = 0, or `onshore`.
+double end_of_water(const Scene& scene, const Solid& solid);
+
+}  // namespace cmps

@@ -1,0 +1,215 @@
+#include "cmps/solid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+namespace cmps {
+namespace {
+
+double cross(const Point& a, const Point& b) { return a[0] * b[1] - a[1] * b[0]; }
+Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1]}; }
+Point along(const Point& a, const Point& b, double s) {
+    return {a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])};
+}
+
+double signed_area(const Polygon& polygon) {
+    double twice = 0;
+    for (std::size_t i = 0; i < polygon.size(); ++i) twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+    return 0.5 * twice;
+}
+
+bool inside(const Polygon& polygon, double x, double z) {
+    bool is_inside = false;
+    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+        const Point &a = polygon[i], &b = polygon[j];
+        if ((a[1] > z) != (b[1] > z) && x < (b[0] - a[0]) * (z - a[1]) / (b[1] - a[1]) + a[0])
+            is_inside = !is_inside;
+    }
+    return is_inside;
+}
+
+double distance_to_segment(const SurfaceSegment& segment, double x, double z) {
+    const Point d = minus(segment.to, segment.from), e = {x - segment.from[0], z - segment.from[1]};
+    const double length2 = d[0] * d[0] + d[1] * d[1];
+    const double s = std::clamp((e[0] * d[0] + e[1] * d[1]) / length2, 0.0, 1.0);
+    return std::hypot(e[0] - s * d[0], e[1] - s * d[1]);
+}
+
+/// Parameters on a-b where c-d meets it.
+void add_cuts(const Point& a, const Point& b, const Point& c, const Point& d, std::vector<double>& cuts) {
+    const Point ab = minus(b, a), cd = minus(d, c), ac = minus(c, a);
+    const double length2 = ab[0] * ab[0] + ab[1] * ab[1];
+    const double denominator = cross(ab, cd);
+    if (std::abs(denominator) > 1e-12 * length2) {
+        const double s = cross(ac, cd) / denominator, t = cross(ac, ab) / denominator;
+        if (t > -1e-9 && t < 1 + 1e-9) cuts.push_back(s);
+    } else {  // parallel: its ends may lie on a-b
+        for (const Point& p : {c, d}) {
+            const Point ap = minus(p, a);
+            cuts.push_back((ap[0] * ab[0] + ap[1] * ab[1]) / length2);
+        }
+    }
+}
+
+}  // namespace
+
+void Solid::add(Polygon polygon, std::int32_t body) {
+    if (signed_area(polygon) < 0) std::reverse(polygon.begin(), polygon.end());
+    Part part{.points = std::move(polygon), .body = body, .x0 = 1e300, .x1 = -1e300, .z0 = 1e300, .z1 = -1e300};
+    for (const Point& p : part.points) {
+        part.x0 = std::min(part.x0, p[0]), part.x1 = std::max(part.x1, p[0]);
+        part.z0 = std::min(part.z0, p[1]), part.z1 = std::max(part.z1, p[1]);
+    }
+    parts_.push_back(std::move(part));
+}
+
+bool Solid::contains(double x, double z) const {
+    for (const Part& part : parts_)
+        if (x >= part.x0 && x <= part.x1 && z >= part.z0 && z <= part.z1 && inside(part.points, x, z)) return true;
+    return false;
+}
+
+void Solid::find_surface(const Point& low, const Point& high) {
+    surface_.clear();
+    for (const Part& part : parts_)
+        for (std::size_t i = 0; i < part.points.size(); ++i) {
+            const Point &a = part.points[i], &b = part.points[(i + 1) % part.points.size()];
+            const Point d = minus(b, a);
+            const double length = std::hypot(d[0], d[1]);
+            if (length == 0) continue;
+            const Point normal = {d[1] / length, -d[0] / length};  // polygons run anticlockwise
+            std::vector<double> cuts = {0, 1};
+            for (const Part& other : parts_)
+                for (std::size_t k = 0; k < other.points.size(); ++k)
+                    add_cuts(a, b, other.points[k], other.points[(k + 1) % other.points.size()], cuts);
+            std::erase_if(cuts, [](double s) { return s < 0 || s > 1; });
+            std::sort(cuts.begin(), cuts.end());
+            for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+                if ((cuts[k + 1] - cuts[k]) * length < 1e-9) continue;
+                const Point middle = along(a, b, 0.5 * (cuts[k] + cuts[k + 1]));
+                const double off = 1e-7;  // m: beside the edge
+                const double x = middle[0] + off * normal[0], z = middle[1] + off * normal[1];
+                if (x < low[0] || x > high[0] || z < low[1] || z > high[1] || contains(x, z)) continue;
+                const Point from = along(a, b, cuts[k]), to = along(a, b, cuts[k + 1]);
+                if (!surface_.empty() && k > 0 && surface_.back().normal == normal &&
+                    std::hypot(surface_.back().to[0] - from[0], surface_.back().to[1] - from[1]) < 1e-9)
+                    surface_.back().to = to;  // a cut that changed nothing
+                else
+                    surface_.push_back({.from = from, .to = to, .normal = normal, .body = part.body});
+            }
+        }
+}
+
+double Solid::distance(double x, double z, std::size_t& nearest) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < surface_.size(); ++i) {
+        const double d = distance_to_segment(surface_[i], x, z);
+        if (d < least) least = d, nearest = i;
+    }
+    return least;
+}
+
+std::vector<std::array<double, 2>> Solid::free_intervals(double x, double bottom, double top) const {
+    std::vector<double> cuts = {bottom, top};
+    for (const Part& part : parts_)
+        for (std::size_t i = 0; i < part.points.size(); ++i) {
+            const Point &a = part.points[i], &b = part.points[(i + 1) % part.points.size()];
+            if ((a[0] > x) == (b[0] > x)) continue;
+            const double z = a[1] + (b[1] - a[1]) * (x - a[0]) / (b[0] - a[0]);
+            if (z > bottom && z < top) cuts.push_back(z);
+        }
+    std::sort(cuts.begin(), cuts.end());
+    std::vector<std::array<double, 2>> free;
+    for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+        if (cuts[k + 1] - cuts[k] < 1e-9 || contains(x, 0.5 * (cuts[k] + cuts[k + 1]))) continue;
+        if (!free.empty() && free.back()[1] == cuts[k])
+            free.back()[1] = cuts[k + 1];
+        else
+            free.push_back({cuts[k], cuts[k + 1]});
+    }
+    return free;
+}
+
+bool crosses_itself(const Polygon& polygon, std::array<std::size_t, 2>& where) {
+    const std::size_t n = polygon.size();
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t k = i + 2; k < n; ++k) {
+            if (i == 0 && k == n - 1) continue;  // neighbours through the closing edge
+            const Point &a = polygon[i], &b = polygon[i + 1], &c = polygon[k], &d = polygon[(k + 1) % n];
+            const Point ab = minus(b, a), cd = minus(d, c);
+            const double side_c = cross(ab, minus(c, a)), side_d = cross(ab, minus(d, a));
+            const double side_a = cross(cd, minus(a, c)), side_b = cross(cd, minus(b, c));
+            if (side_c * side_d < 0 && side_a * side_b < 0) {
+                where = {i + 1, k + 1};
+                return true;
+            }
+        }
+    return false;
+}
+
+namespace {
+
+/// Accepted particles by cell, to refuse new ones that come too near.
+class Occupied {
+ public:
+    explicit Occupied(double cell) : cell_(cell) {}
+    bool is_free(double x, double z, double distance) const {
+        const auto i = index(x), k = index(z);
+        for (std::int64_t di = -1; di <= 1; ++di)
+            for (std::int64_t dk = -1; dk <= 1; ++dk) {
+                const auto found = cells_.find(key(i + di, k + dk));
+                if (found == cells_.end()) continue;
+                for (const Point& p : found->second)
+                    if (std::hypot(p[0] - x, p[1] - z) < distance) return false;
+            }
+        return true;
+    }
+    void add(double x, double z) { cells_[key(index(x), index(z))].push_back({x, z}); }
+
+ private:
+    std::int64_t index(double a) const { return static_cast<std::int64_t>(std::floor(a / cell_)); }
+    static std::int64_t key(std::int64_t i, std::int64_t k) { return i * 1'000'003 + k; }
+    double cell_;
+    std::unordered_map<std::int64_t, std::vector<Point>> cells_;
+};
+
+}  // namespace
+
+std::vector<BoundaryParticle> place_boundary(const Solid& solid, double spacing, double x0, double x1, double z1) {
+    constexpr int layers = 4;
+    const double nearest_allowed = 0.7 * spacing;  // below it two particles would stand for one
+    std::vector<BoundaryParticle> placed;
+    Occupied occupied(spacing);
+    for (int layer = 0; layer < layers; ++layer)
+        for (const bool is_mitre : {false, true})
+            for (const SurfaceSegment& segment : solid.surface()) {
+                const Point d = minus(segment.to, segment.from);
+                const double length = std::hypot(d[0], d[1]);
+                const Point t = {d[0] / length, d[1] / length};
+                const int count = std::max(1, static_cast<int>(std::lround(length / spacing)));
+                const double step = length / count, depth = (layer + 0.5) * spacing;
+                for (int i = is_mitre ? -layers : 0; i < count + (is_mitre ? layers : 0); ++i) {
+                    if (is_mitre && i >= 0 && i < count) continue;
+                    // past the ends the lattice goes on with the true spacing
+                    const double s = i < 0        ? (i + 0.5) * spacing
+                                     : i < count  ? (i + 0.5) * step
+                                                  : length + (i - count + 0.5) * spacing;
+                    const double x = segment.from[0] + s * t[0] - depth * segment.normal[0];
+                    const double z = segment.from[1] + s * t[1] - depth * segment.normal[1];
+                    if (x < x0 || x > x1 || z > z1 || !solid.contains(x, z)) continue;
+                    std::size_t nearest = 0;
+                    const double distance = solid.distance(x, z, nearest);
+                    if (distance < depth - 0.3 * spacing || distance > layers * spacing) continue;
+                    if (!occupied.is_free(x, z, nearest_allowed)) continue;
+                    occupied.add(x, z);
+                    const SurfaceSegment& face = solid.surface()[nearest];
+                    placed.push_back({.x = x, .z = z, .normal = face.normal, .body = face.body,
+                                      .carries_pressure = distance < 0.85 * spacing});
+                }
+            }
+    return placed;
+}
+
+}  // namespace cmps

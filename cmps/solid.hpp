@@ -1,0 +1,60 @@
+/// What is not water: bed, structure, end walls, as polygons; their union's surface; wall particles in layers behind it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cmps/particles.hpp"
+
+namespace cmps {
+
+using Point = std::array<double, 2>;  ///< x, z in m
+using Polygon = std::vector<Point>;
+
+/// A piece of the surface of the solid; the normal points out of it.
+struct SurfaceSegment {
+    Point from, to, normal;
+    std::int32_t body;
+};
+
+/// Union of polygons.
+class Solid {
+ public:
+    /// Adds a closed polygon (either orientation).
+    void add(Polygon polygon, std::int32_t body);
+    /// Finds the exposed surface that faces the box [low, high]; call once after the last add().
+    void find_surface(const Point& low, const Point& high);
+
+    bool contains(double x, double z) const;
+    const std::vector<SurfaceSegment>& surface() const { return surface_; }
+    /// Distance to the nearest exposed segment (m) and its index.
+    double distance(double x, double z, std::size_t& nearest) const;
+    /// Free intervals [z0, z1] of the vertical line at x between `bottom` and `top`.
+    std::vector<std::array<double, 2>> free_intervals(double x, double bottom, double top) const;
+
+ private:
+    struct Part {
+        Polygon points;
+        std::int32_t body;
+        double x0, x1, z0, z1;
+    };
+    std::vector<Part> parts_;
+    std::vector<SurfaceSegment> surface_;
+};
+
+/// True where the closed polygon crosses itself; `where` gets the two edges (from 1).
+bool crosses_itself(const Polygon& polygon, std::array<std::size_t, 2>& where);
+
+/// Places four layers of boundary particles, `spacing` apart, the first half a spacing behind the surface, for x in
+/// [x0, x1]. Corners are mitred. The first layer becomes walls, the rest dummies.
+struct BoundaryParticle {
+    double x, z;
+    Point normal;
+    std::int32_t body;
+    bool carries_pressure;
+};
+std::vector<BoundaryParticle> place_boundary(const Solid& solid, double spacing, double x0, double x1, double z1);
+
+}  // namespace cmps

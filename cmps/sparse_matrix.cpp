@@ -1,0 +1,19 @@
+#include "cmps/sparse_matrix.hpp"
+
+#include "common/parallel.hpp"
+
+namespace cmps {
+
+void multiply(const SparseMatrix& matrix, const std::vector<double>& x, std::vector<double>& y) {
+    const double* const in = x.data();
+    const double* const value = matrix.value.data();
+    const std::int32_t* const column = matrix.column.data();
+    common::parallel_for(matrix.rows(), 8000, [&](std::size_t i) {
+        double sum = matrix.diagonal[i] * in[i];
+#pragma omp simd reduction(+ : sum)
+        for (std::uint32_t k = matrix.start[i]; k < matrix.start[i + 1]; ++k) sum += value[k] * in[column[k]];
+        y[i] = sum;
+    });
+}
+
+}  // namespace cmps

@@ -1,0 +1,166 @@
+#include "cmps/wave_field.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/errors.hpp"
+
+namespace cmps {
+namespace {
+
+/// First and second derivative at the nodes of a smooth field on an even or uneven grid (three-point formulas).
+void differentiate(const std::vector<double>& x, const std::vector<double>& f, std::vector<double>& first,
+                   std::vector<double>& second) {
+    const std::size_t n = x.size();
+    first.assign(n, 0.0), second.assign(n, 0.0);
+    for (std::size_t i = 1; i + 1 < n; ++i) {
+        const double left = x[i] - x[i - 1], right = x[i + 1] - x[i];
+        const double down = (f[i] - f[i - 1]) / left, up = (f[i + 1] - f[i]) / right;
+        first[i] = (down * right + up * left) / (left + right);
+        second[i] = 2.0 * (up - down) / (left + right);
+    }
+    if (n > 2) {
+        first[0] = first[1], second[0] = second[1];
+        first[n - 1] = first[n - 2], second[n - 1] = second[n - 2];
+    }
+}
+
+}  // namespace
+
+WaveField::WaveField(common::WindowReader& reader, double x0, double x1) : reader_(reader) {
+    const common::Window& window = reader_.first();
+    const auto x = window.at("/x").as_double(), depth = window.at("/still_water_depth").as_double();
+    if (x.size() < 4 || x.front() > x0 || x.back() < x1)
+        throw common::InputError(
+            fmt::format("the wave windows cover x = {:g} to {:g} m; the moving wall and its zone need {:g} to {:g} m "
+                        "(cmps.offshore, cmps.relaxation_length)",
+                        x.front(), x.back(), x0, x1));
+    const auto above = [&](double at) { return static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), at) - x.begin()); };
+    const std::size_t from = above(x0) > 3 ? above(x0) - 3 : 0, to = std::min(above(x1) + 3, x.size());
+    first_node_ = from;
+    x_.assign(x.begin() + static_cast<std::ptrdiff_t>(from), x.begin() + static_cast<std::ptrdiff_t>(to));
+    depth_.assign(depth.begin() + static_cast<std::ptrdiff_t>(from), depth.begin() + static_cast<std::ptrdiff_t>(to));
+    std::vector<double> bed(depth_.size());
+    for (std::size_t i = 0; i < bed.size(); ++i) bed[i] = -depth_[i];
+    differentiate(x_, bed, bed_x_, bed_xx_);
+    eta_.resize(x_.size()), u_.resize(x_.size());
+    first_time_ = last_time_ = window.t_begin;
+}
+
+WaveField::Samples WaveField::cut(const common::Window& window) const {
+    Samples samples;
+    samples.time = window.at("/time").as_double();
+    const auto eta = window.at("/surface_elevation").as_double(), u = window.at("/velocity").as_double();
+    const std::size_t width = window.at("/x").size();
+    for (std::size_t k = 0; k < samples.time.size(); ++k)
+        for (std::size_t i = 0; i < x_.size(); ++i) {
+            samples.elevation.push_back(eta[k * width + first_node_ + i]);
+            samples.velocity.push_back(u[k * width + first_node_ + i]);
+        }
+    return samples;
+}
+
+bool WaveField::receive_next() {
+    const auto window = reader_.receive(next_index_);
+    if (!window) return false;
+    samples_.push_back(cut(*window));
+    last_time_ = window->t_end;
+    ++next_index_;
+    return true;
+}
+
+void WaveField::cover(double t0, double t1) {
+    constexpr double slack = 1e-9;  // s: rounding of window ends
+    if (samples_.empty()) {
+        const auto index = reader_.index_at(t0);
+        if (index) next_index_ = *index;
+    }
+    while (samples_.empty() || last_time_ < t1 - slack)
+        if (!receive_next())
+            throw common::InputError(fmt::format("the wave windows end at t = {:g} s, but t = {:g} s is needed", last_time_, t1));
+    while (samples_.size() > 1 && samples_.front().time.back() < t0 - slack) samples_.pop_front();
+}
+
+double WaveField::arrival(double x, double threshold, double from) {
+    const std::size_t nodes = x_.size();
+    std::size_t node = 0;
+    while (node + 1 < nodes && x_[node + 1] <= x) ++node;
+    while (receive_next()) {
+        const Samples& samples = samples_.back();
+        for (std::size_t k = 0; k < samples.time.size(); ++k)
+            if (samples.time[k] >= from && std::abs(samples.elevation[k * nodes + node]) >= threshold) {
+                const double t = samples.time[k];
+                samples_.clear(), next_index_ = 0, last_time_ = first_time_;
+                return t;
+            }
+        if (samples_.size() > 1) samples_.pop_front();
+    }
+    return -1;
+}
+
+void WaveField::go_to(double time) {
+    const Samples* samples = &samples_.front();
+    for (const Samples& candidate : samples_)
+        if (candidate.time.front() <= time) samples = &candidate;
+    const auto& t = samples->time;
+    const std::size_t count = t.size(), nodes = x_.size();
+    std::size_t k = static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), time) - t.begin());
+    k = std::clamp<std::size_t>(k, 1, count - 1) - 1;
+    const double h = t[k + 1] - t[k], s = std::clamp((time - t[k]) / h, 0.0, 1.0);
+    const double h00 = (1 + 2 * s) * (1 - s) * (1 - s), h10 = s * (1 - s) * (1 - s) * h;
+    const double h01 = s * s * (3 - 2 * s), h11 = s * s * (s - 1) * h;
+    const auto interpolate = [&](const std::vector<double>& f, std::size_t i) {
+        const auto at = [&](std::size_t m) { return f[m * nodes + i]; };
+        const auto slope = [&](std::size_t m) {
+            if (m == 0) return (at(1) - at(0)) / (t[1] - t[0]);
+            if (m + 1 == count) return (at(m) - at(m - 1)) / (t[m] - t[m - 1]);
+            return (at(m + 1) - at(m - 1)) / (t[m + 1] - t[m - 1]);
+        };
+        return h00 * at(k) + h10 * slope(k) + h01 * at(k + 1) + h11 * slope(k + 1);
+    };
+    for (std::size_t i = 0; i < nodes; ++i) {
+        eta_[i] = interpolate(samples->elevation, i);
+        u_[i] = interpolate(samples->velocity, i);
+    }
+    differentiate(x_, u_, u_x_, u_xx_);
+}
+
+std::size_t WaveField::node_left_of(double x, double& share) const {
+    std::size_t i = static_cast<std::size_t>(std::upper_bound(x_.begin(), x_.end(), x) - x_.begin());
+    i = std::clamp<std::size_t>(i, 1, x_.size() - 1) - 1;
+    share = (x - x_[i]) / (x_[i + 1] - x_[i]);
+    return i;
+}
+
+double WaveField::surface_elevation(double x) const {
+    double s;
+    const std::size_t i = node_left_of(x, s);
+    return (1 - s) * eta_[i] + s * eta_[i + 1];
+}
+
+double WaveField::mean_velocity(double x) const {  // eq. (6)
+    double s;
+    const std::size_t i = node_left_of(x, s);
+    return (1 - s) * u_[i] + s * u_[i + 1];
+}
+
+double WaveField::still_water_depth(double x) const {
+    double s;
+    const std::size_t i = node_left_of(x, s);
+    return (1 - s) * depth_[i] + s * depth_[i + 1];
+}
+
+void WaveField::velocity(double x, double z, double& u, double& w) const {
+    double s;
+    const std::size_t i = node_left_of(x, s);
+    const auto at = [&](const std::vector<double>& f) { return (1 - s) * f[i] + s * f[i + 1]; };
+    const double mean = at(u_), slope = at(u_x_), bed_slope = at(bed_x_);
+    const double depth = at(depth_) + at(eta_), above_bed = z + at(depth_);
+    u = mean - (0.5 * above_bed * above_bed - depth * depth / 6.0) * at(u_xx_) +
+        (above_bed - 0.5 * depth) * (2.0 * bed_slope * slope + at(bed_xx_) * mean);
+    w = -above_bed * slope + bed_slope * mean;
+}
+
+}  // namespace cmps
