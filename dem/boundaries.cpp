@@ -1,0 +1,92 @@
+#include "dem/boundaries.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dem {
+
+FixedSpheres::FixedSpheres(std::vector<Vector> centres, double diameter, double reach)
+    : centres_(std::move(centres)), diameter_(diameter), cell_(reach) {
+    if (centres_.empty()) return;
+    Vector least = centres_[0], most = centres_[0];
+    for (const auto& c : centres_) {
+        least = least.cwiseMin(c);
+        most = most.cwiseMax(c);
+    }
+    lowest_ = least.z();
+    highest_ = most.z();
+    // A border of one empty column on every side spares the bounds tests of the 3 x 3 search.
+    constexpr double most_columns = 4e6;
+    const double width = most.x() - least.x(), depth = most.y() - least.y();
+    while ((width / cell_ + 4) * (depth / cell_ + 4) > most_columns) cell_ *= 2;
+    origin_x_ = least.x() - 1.5 * cell_;
+    origin_y_ = least.y() - 1.5 * cell_;
+    count_x_ = static_cast<std::int64_t>(width / cell_) + 4;
+    count_y_ = static_cast<std::int64_t>(depth / cell_) + 4;
+
+    const auto cells = static_cast<std::size_t>(count_x_ * count_y_);
+    begin_.assign(cells + 1, 0);
+    for (const auto& c : centres_) ++begin_[static_cast<std::size_t>(cell_of(c.x(), c.y())) + 1];
+    for (std::size_t i = 0; i < cells; ++i) begin_[i + 1] += begin_[i];
+    order_.resize(centres_.size());
+    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+    std::vector<double> own_top(cells, -std::numeric_limits<double>::infinity());
+    for (std::uint32_t i = 0; i < centres_.size(); ++i) {
+        const auto cell = static_cast<std::size_t>(cell_of(centres_[i].x(), centres_[i].y()));
+        order_[next[cell]++] = i;
+        own_top[cell] = std::max(own_top[cell], centres_[i].z());
+    }
+    top_ = own_top;
+    for (std::int64_t y = 1; y + 1 < count_y_; ++y)
+        for (std::int64_t x = 1; x + 1 < count_x_; ++x)
+            for (std::int64_t dy = -1; dy <= 1; ++dy)
+                for (std::int64_t dx = -1; dx <= 1; ++dx) {
+                    auto& top = top_[static_cast<std::size_t>(y * count_x_ + x)];
+                    top = std::max(top, own_top[static_cast<std::size_t>((y + dy) * count_x_ + x + dx)]);
+                }
+}
+
+std::int64_t FixedSpheres::cell_of(double x, double y) const {
+    const auto i = static_cast<std::int64_t>(std::floor((x - origin_x_) / cell_));
+    const auto j = static_cast<std::int64_t>(std::floor((y - origin_y_) / cell_));
+    if (i < 0 || j < 0 || i >= count_x_ || j >= count_y_) return -1;
+    return j * count_x_ + i;
+}
+
+void FixedSpheres::find_near(const Vector& point, double distance, std::vector<std::uint32_t>& found) const {
+    if (centres_.empty()) return;
+    const std::int64_t cell = cell_of(point.x(), point.y());
+    if (cell < 0 || point.z() - distance > top_[static_cast<std::size_t>(cell)]) return;
+    const std::int64_t column = cell % count_x_, row = cell / count_x_;
+    const std::size_t first = found.size();
+    for (std::int64_t y = std::max<std::int64_t>(row - 1, 0); y <= std::min(row + 1, count_y_ - 1); ++y) {
+        // Columns that follow each other in x lie in one piece of the order.
+        const auto from = static_cast<std::size_t>(y * count_x_ + std::max<std::int64_t>(column - 1, 0));
+        const auto to = static_cast<std::size_t>(y * count_x_ + std::min(column + 1, count_x_ - 1));
+        for (std::uint32_t k = begin_[from]; k < begin_[to + 1]; ++k)
+            if ((centres_[order_[k]] - point).squaredNorm() < distance * distance) found.push_back(order_[k]);
+    }
+    std::sort(found.begin() + static_cast<std::ptrdiff_t>(first), found.end());
+}
+
+double FixedSpheres::highest_near(double x, double y, double distance) const {
+    double top = -std::numeric_limits<double>::infinity();
+    if (centres_.empty()) return top;
+    const auto clamp = [](double value, std::int64_t count) {
+        return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(value)), 0, count - 1);
+    };
+    for (std::int64_t j = clamp((y - distance - origin_y_) / cell_, count_y_);
+         j <= clamp((y + distance - origin_y_) / cell_, count_y_); ++j)
+        for (std::int64_t i = clamp((x - distance - origin_x_) / cell_, count_x_);
+             i <= clamp((x + distance - origin_x_) / cell_, count_x_); ++i) {
+            const auto cell = static_cast<std::size_t>(j * count_x_ + i);
+            for (std::uint32_t k = begin_[cell]; k < begin_[cell + 1]; ++k) {
+                const Vector& c = centres_[order_[k]];
+                if (std::hypot(c.x() - x, c.y() - y) <= distance) top = std::max(top, c.z());
+            }
+        }
+    return top;
+}
+
+}  // namespace dem

@@ -1,0 +1,41 @@
+/// From a scene to blocks that are ready to move: simulation, packing, wires, restarts.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "dem/scene.hpp"
+#include "dem/snapshot.hpp"
+
+namespace dem {
+
+/// Blocks at their placed poses, with the water the scene gives (uniform, until a flow grid takes its place) and, unless
+/// off, sleeping. No wires yet.
+std::unique_ptr<Simulation> build_simulation(const Scene& scene, bool with_water);
+
+/// Lets the blocks settle in still water. `progress` is called now and then with the time.
+/// Throws common::RunError when they do not come to rest in time.
+void settle(Simulation& simulation, const PackingRules& rules, const std::function<void(double)>& progress);
+
+/// Moves the settled poses and contacts of `packing` over, at rest.
+void take_over(Simulation& simulation, const Simulation& packing);
+
+/// Mounts the layout. Wires that `earlier` (may be null) already has between the same spheres keep rest length and damage,
+/// unless one of their blocks was put back; new ones take the distance at packing, or the present one in a restart.
+void mount_layout(Simulation& simulation, const Scene& scene, const PackedPoses& packed, const Wires* earlier);
+
+/// A state or a window of an earlier run (`dem.restart.time` chooses the instant of a window).
+/// Throws common::InputError when it belongs to another scene.
+Snapshot read_start(const std::filesystem::path& from, const Scene& scene);
+
+/// Puts poses, speeds and contacts of a snapshot into the simulation.
+void restore(Simulation& simulation, const Snapshot& snapshot);
+
+/// Puts blocks back to their packed pose, lifted just clear of their neighbours, at rest.
+void put_back(Simulation& simulation, const std::vector<std::uint32_t>& chosen, const PackedPoses& packed);
+
+PackedPoses poses_of(const Blocks& blocks);
+
+}  // namespace dem

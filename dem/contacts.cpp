@@ -1,0 +1,215 @@
+#include "dem/contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/parallel.hpp"
+#include "dem/contact_laws.hpp"
+
+namespace dem {
+
+namespace {
+
+/// Two spheres that overlap, as geometry has it.
+struct Touch {
+    std::uint32_t a, b;
+    double overlap;            // m
+    Vector normal;             // from the block to the partner
+    Vector arm_a, arm_b;       // from the bodies' centres to the middle of the contact
+};
+
+/// The touching spheres of a pair, in order of candidates, appended to `touches`.
+void find_touches(const Blocks& blocks, const Surroundings& surroundings, const PairList& list, const Pair& pair,
+                  std::vector<Touch>& touches) {
+    const Shape& shape = blocks.shape_of(pair.block);
+    const Rotation& turn = blocks.rotation[pair.block];
+    const Vector& centre = blocks.position[pair.block];
+    const double radius = 0.5 * shape.diameter;
+    const double shift = pair.image * surroundings.period;
+
+    const auto add = [&](const Candidate& candidate, const Vector& arm, const Vector& between, double reach,
+                         double partner_radius, const Vector& partner_from_block) {
+        const double squared = between.squaredNorm();
+        if (squared >= reach * reach) return;
+        const double distance = std::sqrt(squared);
+        const double overlap = reach - distance;
+        // Two centres at one place (a user's start) have no normal; up is as good as any.
+        const Vector normal = distance > 0 ? Vector(between / distance) : Vector(0, 0, -1);
+        const Vector arm_a = arm + (radius - overlap * partner_radius / reach) * normal;
+        touches.push_back({candidate.a, candidate.b, overlap, normal, arm_a, arm_a - partner_from_block});
+    };
+
+    if (list.is_block(pair.partner)) {
+        const Shape& other = blocks.shape_of(pair.partner);
+        const Rotation& other_turn = blocks.rotation[pair.partner];
+        Vector partner_from_block = blocks.position[pair.partner] - centre;
+        partner_from_block.y() += shift;
+        const double reach = radius + 0.5 * other.diameter;
+        for (const auto& candidate : pair.candidates) {
+            const Vector arm = turn * shape.spheres[candidate.a];
+            const Vector between = partner_from_block + other_turn * other.spheres[candidate.b] - arm;
+            add(candidate, arm, between, reach, 0.5 * other.diameter, partner_from_block);
+        }
+    } else if (list.is_fixed_spheres(pair.partner)) {
+        const double reach = radius + 0.5 * surroundings.fixed_spheres.diameter();
+        Vector origin = centre;
+        origin.y() -= shift;
+        for (const auto& candidate : pair.candidates) {
+            const Vector arm = turn * shape.spheres[candidate.a];
+            const Vector between = surroundings.fixed_spheres.centre(candidate.b) - origin - arm;
+            add(candidate, arm, between, reach, 0.5 * surroundings.fixed_spheres.diameter(), Vector::Zero());
+        }
+    } else {
+        const Plane& plane = list.plane(pair.partner);
+        const double height = (centre - plane.point).dot(plane.normal);
+        for (const auto& candidate : pair.candidates) {
+            const Vector arm = turn * shape.spheres[candidate.a];
+            const double overlap = radius - height - arm.dot(plane.normal);
+            if (overlap <= 0) continue;
+            const Vector arm_a = arm - (radius - 0.5 * overlap) * plane.normal;
+            touches.push_back({candidate.a, candidate.b, overlap, -plane.normal, arm_a, Vector::Zero()});
+        }
+    }
+}
+
+/// R* of a pair's spheres, m.
+double reduced_radius(const Blocks& blocks, const Surroundings& surroundings, const PairList& list, const Pair& pair) {
+    const double radius = 0.5 * blocks.shape_of(pair.block).diameter;
+    if (list.is_block(pair.partner)) {
+        const double other = 0.5 * blocks.shape_of(pair.partner).diameter;
+        return radius * other / (radius + other);
+    }
+    if (list.is_fixed_spheres(pair.partner)) {
+        const double other = 0.5 * surroundings.fixed_spheres.diameter();
+        return radius * other / (radius + other);
+    }
+    return radius;
+}
+
+/// Mass of the two-body system, kg.
+double reduced_mass(const Blocks& blocks, const PairList& list, const Pair& pair) {
+    double inverse = blocks.is_fixed[pair.block] ? 0 : 1 / blocks.mass(pair.block);
+    if (list.is_block(pair.partner) && !blocks.is_fixed[pair.partner]) inverse += 1 / blocks.mass(pair.partner);
+    return 1 / inverse;
+}
+
+template <class Law, class Friction>
+class PairwiseContacts final : public ContactModel {
+ public:
+    PairwiseContacts(Law law, Friction friction, double damping_ratio)
+        : law_(law), friction_(friction), damping_ratio_(damping_ratio) {}
+
+    void evaluate(const Blocks& blocks, const Surroundings& surroundings, PairList& list,
+                  const std::vector<std::uint32_t>& active, double dt) const override {
+        constexpr std::size_t serial_below = 4000;  // pairs; waking threads costs as much as a few hundred of them
+        common::parallel_for(active.size(), serial_below, [&](std::size_t k) {
+            evaluate_pair(blocks, surroundings, list, list.pairs()[active[k]], dt);
+        });
+    }
+
+    double elastic_energy(const Blocks& blocks, const Surroundings& surroundings, const PairList& list) const override {
+        double energy = 0;
+        std::vector<Touch> touches;
+        for (const auto& pair : list.pairs()) {
+            touches.clear();
+            find_touches(blocks, surroundings, list, pair, touches);
+            const double radius = reduced_radius(blocks, surroundings, list, pair);
+            for (const auto& touch : touches) energy += law_.energy(law_.stiffness(radius, touch.overlap), touch.overlap);
+            for (const auto& contact : pair.contacts) energy += friction_.energy(contact.spring, contact.stiffness);
+        }
+        return energy;
+    }
+
+    double tangential_ratio() const override { return friction_.ratio(); }
+
+    double damping_coefficient(double mass, std::size_t count, double stiffness) const override {
+        return damping_scale(mass, count) * std::sqrt(stiffness);
+    }
+
+ private:
+    /// Dashpot over the square root of the stiffness.
+    double damping_scale(double mass, std::size_t count) const {
+        return 2 * damping_ratio_ * std::sqrt(mass / static_cast<double>(count));
+    }
+
+    void evaluate_pair(const Blocks& blocks, const Surroundings& surroundings, const PairList& list, Pair& pair,
+                       double dt) const {
+        thread_local std::vector<Touch> touches;
+        thread_local std::vector<Contact> now;
+        touches.clear();
+        pair.dissipated = 0;
+        pair.largest_overlap = 0;
+        pair.force.setZero();
+        pair.torque_on_block.setZero();
+        pair.torque_on_partner.setZero();
+        find_touches(blocks, surroundings, list, pair, touches);
+        if (touches.empty()) {
+            pair.contacts.clear();
+            return;
+        }
+        const bool partner_is_block = list.is_block(pair.partner);
+        const double radius = reduced_radius(blocks, surroundings, list, pair);
+        const double dashpot = damping_scale(reduced_mass(blocks, list, pair), touches.size());
+        const Vector& velocity = blocks.velocity[pair.block];
+        const Vector& spin = blocks.angular_velocity[pair.block];
+        const Vector partner_velocity = partner_is_block ? blocks.velocity[pair.partner] : Vector(0, 0, 0);
+        const Vector partner_spin = partner_is_block ? blocks.angular_velocity[pair.partner] : Vector(0, 0, 0);
+
+        now.clear();
+        auto earlier = pair.contacts.begin();
+        for (const auto& touch : touches) {
+            const double stiffness = law_.stiffness(radius, touch.overlap);
+            Contact contact{touch.a, touch.b, stiffness, Vector::Zero()};
+            double stiffness_before = stiffness;
+            while (earlier != pair.contacts.end() &&
+                   (earlier->a < touch.a || (earlier->a == touch.a && earlier->b < touch.b)))
+                ++earlier;
+            if (earlier != pair.contacts.end() && earlier->a == touch.a && earlier->b == touch.b) {
+                contact.spring = earlier->spring;
+                stiffness_before = earlier->stiffness;
+            }
+
+            const Vector relative =
+                velocity + spin.cross(touch.arm_a) - partner_velocity - partner_spin.cross(touch.arm_b);
+            const double closing_speed = relative.dot(touch.normal);
+            const double elastic = law_.force(stiffness, touch.overlap);
+            // No tension: the dashpot never pulls.
+            const double normal_force =
+                std::max(0.0, elastic + dashpot * std::sqrt(stiffness) * closing_speed);
+            const Vector slip_speed = relative - closing_speed * touch.normal;
+            const TangentialForce tangential =
+                friction_.force(contact.spring, stiffness_before, stiffness, touch.normal, slip_speed, normal_force,
+                                dashpot, dt);
+            const Vector force = tangential.force - normal_force * touch.normal;
+            pair.force += force;
+            pair.torque_on_block += touch.arm_a.cross(force);
+            pair.torque_on_partner -= touch.arm_b.cross(force);
+            pair.dissipated += (normal_force - elastic) * closing_speed * dt + tangential.dissipated;
+            pair.largest_overlap = std::max(pair.largest_overlap, touch.overlap);
+            now.push_back(contact);
+        }
+        pair.contacts.swap(now);
+    }
+
+    Law law_;
+    Friction friction_;
+    double damping_ratio_;
+};
+
+template <class Law>
+std::unique_ptr<ContactModel> with_friction(const Law& law, const Material& material) {
+    if (material.friction > 0)
+        return std::make_unique<PairwiseContacts<Law, CoulombFriction>>(law, CoulombFriction(material),
+                                                                        material.damping_ratio);
+    return std::make_unique<PairwiseContacts<Law, Frictionless>>(law, Frictionless{}, material.damping_ratio);
+}
+
+}  // namespace
+
+std::unique_ptr<ContactModel> make_contact_model(ContactLaw law, const Material& material, double element_diameter,
+                                                 double reference_overlap) {
+    if (law == ContactLaw::hertz) return with_friction(HertzLaw(material), material);
+    return with_friction(LinearLaw(material, element_diameter, reference_overlap), material);
+}
+
+}  // namespace dem

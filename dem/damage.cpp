@@ -1,0 +1,39 @@
+#include "dem/damage.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dem {
+
+std::vector<Displacement> displacements(const Blocks& blocks, const std::vector<Vector>& packed_position,
+                                        const std::vector<Quaternion>& packed_orientation) {
+    std::vector<Displacement> moved;
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        const Vector way = blocks.position[i] - packed_position[i];
+        moved.push_back({way.norm(), -way.x(), blocks.orientation[i].angularDistance(packed_orientation[i])});
+    }
+    return moved;
+}
+
+Damage assess_damage(const Blocks& blocks, const std::vector<Displacement>& moved, double width) {
+    Damage damage;
+    double count = 0, length = 0;
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        if (blocks.is_fixed[i]) continue;
+        ++count;
+        length = blocks.shape_of(i).length;
+        for (std::size_t k = 0; k < Damage::levels.size(); ++k)
+            if (moved[i].total > Damage::levels[k] * length) ++damage.moved[k];
+        damage.mean_displacement += moved[i].total;
+        damage.mean_offshore += moved[i].offshore;
+        damage.largest_displacement = std::max(damage.largest_displacement, moved[i].total);
+    }
+    if (count > 0) {
+        damage.mean_displacement /= count;
+        damage.mean_offshore /= count;
+    }
+    if (width > 0 && length > 0) damage.number = static_cast<double>(damage.moved[1]) / (width / length);
+    return damage;
+}
+
+}  // namespace dem

@@ -1,0 +1,52 @@
+#include "dem/effects/fluid_force.hpp"
+
+#include <cmath>
+
+namespace dem {
+
+template <class Motion>
+FluidLoad sample_fluid_load(const Blocks& blocks, std::size_t block, const Motion& motion,
+                            const FluidProperties& properties) {
+    const Shape& shape = blocks.shape_of(block);
+    const Water& water = properties.water;
+    const double d = properties.element.diameter;
+    const double volume = properties.displaced_volume > 0
+                              ? properties.displaced_volume / static_cast<double>(shape.spheres.size())
+                              : properties.element.volume() * shape.elements_per_sphere;
+    const double drag = 0.5 * water.density * properties.element.section() * shape.elements_per_sphere;
+    const double inertia = water.density * (1 + water.added_mass_coefficient) * volume;
+    const double viscous = 24 * water.viscosity / d;
+    const Vector buoyancy = -water.density * volume * properties.gravity;
+
+    FluidLoad load{Vector::Zero(), Vector::Zero(), Rotation::Zero(), blocks.velocity[block], 0};
+    double isotropic = 0;
+    for (const auto& sphere : shape.spheres) {
+        const Vector arm = blocks.rotation[block] * sphere;
+        const WaterSample sample = motion.at(blocks.position[block] + arm);
+        if (sample.wet <= 0) continue;
+        const Vector relative = sample.velocity - blocks.velocity[block] - blocks.angular_velocity[block].cross(arm);
+        const double speed = relative.norm();
+        // C_D |u_r| of eq. (12), finite at zero relative speed.
+        const double slope = drag * sample.wet * (0.4 * speed + viscous);
+        const Vector force = slope * relative + sample.wet * (inertia * sample.acceleration + buoyancy);  // (10), (11)
+        load.force += force;
+        load.torque += arm.cross(force);
+        load.wet += sample.wet;
+        isotropic += slope;
+        if (speed > 0) load.drag_slope += (drag * sample.wet * 0.4 / speed * relative) * relative.transpose();
+    }
+    load.drag_slope.diagonal().array() += isotropic;
+    load.wet /= static_cast<double>(shape.spheres.size());
+    return load;
+}
+
+template FluidLoad sample_fluid_load(const Blocks&, std::size_t, const UniformWater&, const FluidProperties&);
+template FluidLoad sample_fluid_load(const Blocks&, std::size_t, const FlowGrid&, const FluidProperties&);
+
+double mass_ratio(const Shape& shape, double wet, const FluidProperties& properties) {
+    const double volume =
+        properties.displaced_volume > 0 ? properties.displaced_volume : shape.displaced_volume;
+    return 1 + properties.water.density * properties.water.added_mass_coefficient * volume * wet / shape.mass;
+}
+
+}  // namespace dem

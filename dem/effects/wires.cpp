@@ -1,0 +1,81 @@
+#include "dem/effects/wires.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dem {
+
+void Wires::add(std::uint32_t a, std::uint32_t sphere_of_a, std::uint32_t b, std::uint32_t sphere_of_b, double r0,
+                double k_n) {
+    block_a.push_back(a);
+    sphere_a.push_back(sphere_of_a);
+    block_b.push_back(b);
+    sphere_b.push_back(sphere_of_b);
+    rest_length.push_back(r0);
+    stiffness.push_back(k_n);
+    is_intact.push_back(1);
+    tension.push_back(0);
+    broken_at.push_back(-1);
+    largest_tension.push_back(0);
+}
+
+double Wires::tension_at(std::size_t wire, double r) const {
+    const double r0 = rest_length[wire];
+    if (r <= r0) return 0;
+    const double hooke = stiffness[wire] * (r - r0);
+    return law == WireLaw::hooke ? hooke : hooke * (1 - r0 / r);
+}
+
+double Wires::energy_at(std::size_t wire, double r) const {
+    const double r0 = rest_length[wire], stretch = r - r0;
+    if (stretch <= 0) return 0;
+    if (law == WireLaw::hooke) return 0.5 * stiffness[wire] * stretch * stretch;
+    const double logarithm = r0 > 0 ? r0 * r0 * std::log(r / r0) : 0.0;
+    return stiffness[wire] * (0.5 * (r * r - r0 * r0) - 2 * r0 * stretch + logarithm);
+}
+
+double Wires::length(const Blocks& blocks, std::size_t wire) const {
+    return (blocks.sphere_centre(block_b[wire], sphere_b[wire]) - blocks.sphere_centre(block_a[wire], sphere_a[wire]))
+        .norm();
+}
+
+void Wires::pull(Blocks& blocks, double t) {
+    for (std::size_t k = 0; k < size(); ++k) {
+        if (!is_intact[k]) continue;
+        const std::uint32_t a = block_a[k], b = block_b[k];
+        const Vector arm_a = blocks.arm(a, sphere_a[k]), arm_b = blocks.arm(b, sphere_b[k]);
+        const Vector between = blocks.position[b] + arm_b - blocks.position[a] - arm_a;
+        const double r = between.norm();
+        if (r <= rest_length[k]) {
+            tension[k] = 0;
+            continue;
+        }
+        if (r > rest_length[k] + longest_stretch) {  // r > r_max: broken for good
+            energy_of_broken += energy_at(k, r);
+            is_intact[k] = 0;
+            tension[k] = 0;
+            broken_at[k] = t;
+            continue;
+        }
+        tension[k] = tension_at(k, r);  // (13)
+        largest_tension[k] = std::max(largest_tension[k], tension[k]);
+        const Vector force = tension[k] / r * between;
+        blocks.force[a] += force;
+        blocks.torque[a] += arm_a.cross(force);
+        blocks.force[b] -= force;
+        blocks.torque[b] -= arm_b.cross(force);
+    }
+}
+
+double Wires::elastic_energy(const Blocks& blocks) const {
+    double energy = 0;
+    for (std::size_t k = 0; k < size(); ++k)
+        if (is_intact[k]) energy += energy_at(k, length(blocks, k));
+    return energy;
+}
+
+std::size_t Wires::intact_count() const {
+    return static_cast<std::size_t>(std::count(is_intact.begin(), is_intact.end(), 1));
+}
+
+}  // namespace dem

@@ -1,0 +1,22 @@
+/// The near field's windows as water motion.
+#pragma once
+
+#include <vector>
+
+#include "common/window.hpp"
+#include "common/window_channel.hpp"
+#include "dem/blocks.hpp"
+#include "dem/water_motion.hpp"
+
+namespace dem {
+
+/// What this stage needs to find in a window of cmps.
+std::vector<common::ExpectedDataset> expected_flow();
+
+/// The flow grid of one window. Throws common::InputError naming the dataset (axes not uniform, too few samples).
+FlowGrid flow_grid_of(const common::Window& window, bool still_outside);
+
+/// Throws common::InputError unless the grid covers every sphere of every block that can move.
+void require_cover(const FlowGrid& grid, const Blocks& blocks, const std::string& folder);
+
+}  // namespace dem

@@ -1,0 +1,62 @@
+#include "dem/layout.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace dem {
+
+namespace {
+
+/// Spheres on the side of a block that looks along `direction` (world), within half a sphere of the outermost one.
+std::vector<std::uint32_t> side_spheres(const Blocks& placed, std::uint32_t block, const Vector& direction) {
+    const Shape& shape = placed.shape_of(block);
+    std::vector<std::uint32_t> side;
+    double farthest = -std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < shape.spheres.size(); ++k)
+        farthest = std::max(farthest, placed.arm(block, k).dot(direction));
+    for (std::size_t k = 0; k < shape.spheres.size(); ++k)
+        if (placed.arm(block, k).dot(direction) > farthest - 0.5 * shape.diameter)
+            side.push_back(static_cast<std::uint32_t>(k));
+    return side;
+}
+
+}  // namespace
+
+std::vector<WirePlace> facing_spheres(const Blocks& placed, std::uint32_t block_a, std::uint32_t block_b) {
+    // The world axis along which the two stand side by side.
+    const Vector between = placed.position[block_b] - placed.position[block_a];
+    Eigen::Index axis = 0;
+    between.cwiseAbs().maxCoeff(&axis);
+    const Vector direction = Vector::Unit(axis) * (between[axis] < 0 ? -1.0 : 1.0);
+    const auto side_a = side_spheres(placed, block_a, direction);
+    auto side_b = side_spheres(placed, block_b, -direction);
+    std::vector<WirePlace> pairs;
+    for (const auto a : side_a) {
+        auto nearest = side_b.end();
+        double least = std::numeric_limits<double>::infinity();
+        for (auto b = side_b.begin(); b != side_b.end(); ++b) {
+            Vector across = placed.sphere_centre(block_b, *b) - placed.sphere_centre(block_a, a);
+            across[axis] = 0;
+            // A hair's breadth of preference for the first keeps ties from being decided by rounding.
+            if (across.norm() < least - 1e-9) {
+                least = across.norm();
+                nearest = b;
+            }
+        }
+        if (nearest == side_b.end()) break;
+        pairs.push_back({block_a, a, block_b, *nearest});
+        side_b.erase(nearest);
+    }
+    return pairs;
+}
+
+std::vector<WirePlace> wires_of(const Blocks& placed, const LinkRequest& link) {
+    if (link.spheres) return {{link.block_a, (*link.spheres)[0], link.block_b, (*link.spheres)[1]}};
+    const auto all = facing_spheres(placed, link.block_a, link.block_b);
+    const std::size_t count = link.wires == 0 ? all.size() : std::min(link.wires, all.size());
+    std::vector<WirePlace> chosen;
+    for (std::size_t k = 0; k < count; ++k) chosen.push_back(all[(2 * k + 1) * all.size() / (2 * count)]);
+    return chosen;
+}
+
+}  // namespace dem

@@ -1,0 +1,43 @@
+#include "dem/loads.hpp"
+
+#include <cmath>
+
+namespace dem {
+
+FluidLoads::FluidLoads(const Blocks& blocks, FluidProperties properties, std::variant<UniformWater, FlowGrid> water_motion)
+    : motion(std::move(water_motion)), properties_(std::move(properties)) {
+    loads_.assign(blocks.size(), {Vector::Zero(), Vector::Zero(), Rotation::Zero(), Vector::Zero(), 0});
+    applied_.assign(blocks.size(), Vector::Zero());
+}
+
+void FluidLoads::sample(Blocks& blocks, double t, double hold) {
+    // The middle of the time the sample is held: second order in the interval.
+    if (auto* grid = std::get_if<FlowGrid>(&motion)) grid->set_time(t + 0.5 * hold);
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        if (blocks.is_fixed[i]) continue;
+        loads_[i] = std::visit([&](const auto& water) { return sample_fluid_load(blocks, i, water, properties_); }, motion);
+        const double ratio = mass_ratio(blocks.shape_of(i), loads_[i].wet, properties_);
+        if (ratio != blocks.mass_ratio[i]) work += blocks.set_mass_ratio(i, ratio);
+    }
+}
+
+void FluidLoads::add(Blocks& blocks, const std::vector<std::uint32_t>& movable, double) {
+    for (const auto i : movable) {
+        applied_[i] = loads_[i].force_at(blocks.velocity[i]);
+        blocks.force[i] += applied_[i];
+        blocks.torque[i] += loads_[i].torque;
+    }
+}
+
+void FluidLoads::account(const Blocks& blocks, const std::vector<std::uint32_t>& movable, double dt) {
+    for (const auto i : movable) {
+        const double done =
+            dt * (applied_[i].dot(blocks.velocity[i]) + loads_[i].torque.dot(blocks.angular_velocity[i]));
+        work += done;
+        gross_work += std::abs(done);
+    }
+}
+
+void WireLoads::add(Blocks& blocks, const std::vector<std::uint32_t>&, double t) { wires_.pull(blocks, t); }
+
+}  // namespace dem

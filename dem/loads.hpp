@@ -1,0 +1,61 @@
+/// What acts on blocks besides weight and contacts: a list built once, one call each a step. An effect that is off is not in it.
+#pragma once
+
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "dem/blocks.hpp"
+#include "dem/effects/fluid_force.hpp"
+#include "dem/effects/wires.hpp"
+
+namespace dem {
+
+/// One load on the blocks.
+class Load {
+ public:
+    virtual ~Load() = default;
+    /// Called now and then (at the flow interval): looks at the surroundings for the time from t to t + hold.
+    virtual void sample(Blocks& blocks, double t, double hold) = 0;
+    /// Adds to blocks.force and blocks.torque; every step. `movable`: the blocks whose sums are wanted.
+    virtual void add(Blocks& blocks, const std::vector<std::uint32_t>& movable, double t) = 0;
+    /// After the step: adds up the work done on the blocks.
+    virtual void account(const Blocks& blocks, const std::vector<std::uint32_t>& movable, double dt) = 0;
+    /// Who is awake has changed.
+    virtual void awake_changed(const std::vector<std::uint8_t>& is_awake) = 0;
+};
+
+/// The water's force on every block that is not fixed.
+class FluidLoads final : public Load {
+ public:
+    FluidLoads(const Blocks& blocks, FluidProperties properties, std::variant<UniformWater, FlowGrid> motion);
+
+    void sample(Blocks& blocks, double t, double hold) override;
+    void add(Blocks& blocks, const std::vector<std::uint32_t>& movable, double t) override;
+    void account(const Blocks& blocks, const std::vector<std::uint32_t>& movable, double dt) override;
+    void awake_changed(const std::vector<std::uint8_t>&) override {}
+
+    std::variant<UniformWater, FlowGrid> motion;
+    double work = 0;        ///< done by the water on blocks, buoyancy and added mass included, J
+    double gross_work = 0;  ///< the same in absolute value, J
+
+ private:
+    FluidProperties properties_;
+    std::vector<FluidLoad> loads_;
+    std::vector<Vector> applied_;  // force of the last step
+};
+
+/// Wires with an end that may move.
+class WireLoads final : public Load {
+ public:
+    explicit WireLoads(Wires& wires) : wires_(wires) {}
+    void sample(Blocks&, double, double) override {}
+    void add(Blocks& blocks, const std::vector<std::uint32_t>& movable, double t) override;
+    void account(const Blocks&, const std::vector<std::uint32_t>&, double) override {}
+    void awake_changed(const std::vector<std::uint8_t>&) override {}
+
+ private:
+    Wires& wires_;
+};
+
+}  // namespace dem

@@ -1,0 +1,34 @@
+/// dem: armour blocks of spheres, their contacts and wires, moved by the near field.
+#include <gsl/gsl_errno.h>
+
+#include <optional>
+
+#include "common/errors.hpp"
+#include "common/parallel.hpp"
+#include "common/stage_command.hpp"
+#include "dem/run.hpp"
+
+int main(int argc, char** argv) {
+    return common::run_guarded("dem", [&] {
+        using Verb = common::StageCommand::Verb;
+        gsl_set_error_handler_off();
+        common::watch_for_interrupts();
+        const auto command = common::read_stage_command(argc, argv,
+                                                        {.program = "dem",
+                                                         .description = "armour blocks and wires (3D distinct elements)",
+                                                         .upstream_option = "--flow",
+                                                         .has_layouts = true,
+                                                         .has_pack = true});
+        common::use_threads(command.threads);
+        const auto file = common::SceneFile::read(command.scene, command.overrides);
+        std::optional<common::SceneFile> layout;
+        if (!command.wires.empty()) layout = common::SceneFile::read(command.wires);
+        const dem::Scene scene = dem::read_scene(file, layout ? &*layout : nullptr);
+        file.finish();
+        if (layout) layout->finish();
+        if (command.verb == Verb::check) dem::check(command, file, scene);
+        if (command.verb == Verb::pack) dem::pack(command, file, scene);
+        if (command.verb == Verb::run) dem::run(command, file, layout ? &*layout : nullptr, scene);
+        return static_cast<int>(common::exit_done);
+    });
+}

@@ -1,0 +1,99 @@
+/// Who can touch whom: pairs of blocks first, then pairs of their spheres.
+///
+/// Two lists with a skin each. Pairs of bodies follow from the blocks' bounding spheres and are found again, all at once,
+/// when some block has moved half of the wide skin. Sphere pairs (candidates) of one block are found again when that block
+/// has moved a third of the narrow skin; so a tumbling block costs nothing to those at rest.
+///
+/// Results do not depend on the lists: pairs and candidates stand in a fixed order (block, partner, sphere, sphere), and
+/// only those that touch contribute.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "dem/blocks.hpp"
+#include "dem/boundaries.hpp"
+
+namespace dem {
+
+/// Two spheres that touch, with what the contact remembers.
+struct Contact {
+    std::uint32_t a, b;      ///< sphere of the block, sphere of the partner
+    double stiffness;        ///< normal, N/m, at the last step
+    Vector spring;           ///< tangential spring force on the block, N, world axes
+};
+
+/// Sphere `a` of the block and sphere `b` of the partner (0 for a plane).
+struct Candidate {
+    std::uint32_t a, b;
+};
+
+/// A block and a partner: a later block, the fixed spheres (number blocks.size()), or a plane (the numbers after it).
+struct Pair {
+    std::uint32_t block, partner;
+    std::int32_t image;  ///< the partner stands this many widths of the periodic box further in y
+    std::vector<Candidate> candidates;
+    std::vector<Contact> contacts;
+    // Results of the last force pass.
+    Vector force{0, 0, 0};             ///< on the block, N; the partner feels the opposite
+    Vector torque_on_block{0, 0, 0};   ///< N m, about the block's centre
+    Vector torque_on_partner{0, 0, 0}; ///< N m, about the partner's centre
+    double dissipated = 0;             ///< J in that step
+    double largest_overlap = 0;        ///< m
+};
+
+/// The bodies that pairs are made of.
+struct Surroundings {
+    FixedSpheres fixed_spheres;
+    std::vector<Plane> planes;
+    double period = 0;  ///< width of the periodic box in y, m; 0: not periodic
+};
+
+class PairList {
+ public:
+    /// `skin`: of the sphere pairs, m.
+    PairList(const Blocks& blocks, const Surroundings& surroundings, double skin);
+
+    /// Finds again what has become out of date. `awake`: blocks that may have moved.
+    /// Returns true when the pairs of bodies changed, so that indices into pairs() are no longer valid.
+    bool update(const std::vector<std::uint32_t>& awake);
+
+    std::vector<Pair>& pairs() { return pairs_; }
+    const std::vector<Pair>& pairs() const { return pairs_; }
+    /// Pairs of one block, as 2 * pair + (1 where the block is the partner), ascending.
+    struct Incidence {
+        const std::uint32_t *first, *last;
+        const std::uint32_t* begin() const { return first; }
+        const std::uint32_t* end() const { return last; }
+    };
+    Incidence pairs_of(std::size_t block) const {
+        return {incidence_.data() + incidence_begin_[block], incidence_.data() + incidence_begin_[block + 1]};
+    }
+    bool is_block(std::uint32_t partner) const { return partner < blocks_.size(); }
+    bool is_fixed_spheres(std::uint32_t partner) const { return partner == blocks_.size(); }
+    const Plane& plane(std::uint32_t partner) const { return surroundings_.planes[partner - blocks_.size() - 1]; }
+    /// Puts back the contacts of a saved run; every pair they name must be listed (it is: they touch).
+    void restore(const std::vector<Pair>& saved);
+    /// Everything is found again from the present poses.
+    void rebuild();
+
+ private:
+    void find_pairs();
+    void find_candidates(Pair& pair);
+    void find_block_candidates(Pair& pair);
+    void find_incidence();
+    double moved_since(std::size_t block, const std::vector<Vector>& position,
+                       const std::vector<Quaternion>& orientation) const;
+
+    const Blocks& blocks_;
+    const Surroundings& surroundings_;
+    double skin_, wide_skin_;
+    std::vector<Pair> pairs_;
+    std::vector<std::uint32_t> incidence_, incidence_begin_;
+    std::vector<Vector> narrow_position_, wide_position_;
+    std::vector<Quaternion> narrow_orientation_, wide_orientation_;
+    std::vector<std::uint32_t> near_, stale_, near_a_, near_b_;
+    std::vector<Vector> centres_b_;
+};
+
+}  // namespace dem

@@ -1,0 +1,83 @@
+#include "dem/report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dem/damage.hpp"
+
+namespace dem {
+
+Report::Report(const std::filesystem::path& folder, const common::SceneFile& file, const Scene& scene, const std::string& scene_digest,
+               const std::string& input_digest)
+    : record_(folder, "dem"), scene_(scene), smallest_limit_(std::numeric_limits<double>::infinity()) {
+    record_.describe_scene(file);
+    record_.set_digests(scene_digest, input_digest);
+    record_.set_effects(scene.effects.records);
+    record_.set_figure("blocks", static_cast<double>(scene.placed.size()));
+    record_.set_figure("time_step", scene.step.time_step);
+    record_.write_running();
+}
+
+void Report::set_first_energy(const EnergyBudget& energy) {
+    first_balance_ = energy.balance();
+    first_size_ = energy.kinetic + energy.contacts + energy.wires;
+}
+
+double closure_error(const EnergyBudget& energy, double first_balance, double first_size) {
+    // What changed hands: through contacts and water, and what was there to start with.
+    const double exchanged = energy.dissipated + energy.gross_water_work + first_size;
+    return exchanged > 0 ? (energy.balance() - first_balance) / exchanged : 0;
+}
+
+void Report::look(const Simulation& simulation) { smallest_limit_ = std::min(smallest_limit_, simulation.stable_time_step()); }
+
+void Report::window_done(const Simulation& simulation, const PackedPoses& packed, std::int64_t windows) {
+    const EnergyBudget energy = simulation.energy();
+    const auto moved = displacements(simulation.blocks, packed.position, packed.orientation);
+    const Damage damage = assess_damage(simulation.blocks, moved, scene_.width);
+    const double d = scene_.element.diameter;
+    record_.set_windows(windows);
+    record_.set_invariant({"energy_closure", closure_error(energy, first_balance_, first_size_), "-", 0.1});
+    record_.set_invariant({"largest_overlap", simulation.largest_overlap() / d, "d", scene_.step.overlap_limit / d});
+    record_.set_figure("deep_contact_steps", static_cast<double>(simulation.deep_contact_steps()));
+    record_.set_figure("time_step_limit", smallest_limit_);
+    record_.set_figure("steps", static_cast<double>(simulation.steps()));
+    record_.set_figure("awake_block_steps", static_cast<double>(simulation.awake_block_steps()));
+    record_.set_figure("blocks_asleep", static_cast<double>(simulation.asleep_count()));
+    record_.set_figure("energy.kinetic", energy.kinetic);
+    record_.set_figure("energy.potential", energy.potential);
+    record_.set_figure("energy.contacts", energy.contacts);
+    record_.set_figure("energy.wires", energy.wires);
+    record_.set_figure("energy.dissipated", energy.dissipated);
+    record_.set_figure("energy.water_work", energy.water_work);
+    record_.set_figure("damage.beyond_quarter_length", static_cast<double>(damage.moved[0]));
+    record_.set_figure("damage.beyond_half_length", static_cast<double>(damage.moved[1]));
+    record_.set_figure("damage.beyond_length", static_cast<double>(damage.moved[2]));
+    record_.set_figure("damage.number", damage.number);
+    record_.set_figure("damage.mean_displacement", damage.mean_displacement);
+    record_.set_figure("damage.mean_offshore", damage.mean_offshore);
+    record_.set_figure("damage.largest_displacement", damage.largest_displacement);
+    const Wires& wires = simulation.wires;
+    record_.set_figure("wires.count", static_cast<double>(wires.size()));
+    record_.set_figure("wires.broken", static_cast<double>(wires.size() - wires.intact_count()));
+    record_.set_figure("wires.largest_tension",
+                       wires.size() > 0 ? *std::max_element(wires.largest_tension.begin(), wires.largest_tension.end()) : 0.0);
+    record_.write_running();
+}
+
+void Report::store(common::DataFile& state) const {
+    state.attributes["first_balance"] = first_balance_;
+    state.attributes["first_size"] = first_size_;
+    state.attributes["smallest_limit"] = smallest_limit_;
+}
+
+void Report::restore(const common::DataFile& state) {
+    first_balance_ = state.number("first_balance");
+    first_size_ = state.number("first_size");
+    smallest_limit_ = state.number("smallest_limit");
+}
+
+void Report::end(const std::string& status, const std::string& message) { record_.write_ended(status, message); }
+
+}  // namespace dem

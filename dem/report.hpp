@@ -1,0 +1,37 @@
+/// What the run says about itself: run.json.
+#pragma once
+
+#include <filesystem>
+
+#include "common/run_record.hpp"
+#include "dem/scene.hpp"
+#include "dem/snapshot.hpp"
+
+namespace dem {
+
+class Report {
+ public:
+    Report(const std::filesystem::path& folder, const common::SceneFile& file, const Scene& scene, const std::string& scene_digest,
+           const std::string& input_digest);
+    /// The energies that later balances are held against.
+    void set_first_energy(const EnergyBudget& energy);
+    /// Looks at the stability limit of the present contacts (at every sample).
+    void look(const Simulation& simulation);
+    /// Figures and invariants at the end of a window.
+    void window_done(const Simulation& simulation, const PackedPoses& packed, std::int64_t windows);
+    void end(const std::string& status, const std::string& message = {});
+    void add_time(const std::string& phase, double seconds) { record_.add_phase_time(phase, seconds); }
+    /// What later reports depend on, kept in state.h5.
+    void store(common::DataFile& state) const;
+    void restore(const common::DataFile& state);
+
+ private:
+    common::RunRecord record_;
+    const Scene& scene_;
+    double first_balance_ = 0, first_size_ = 0, smallest_limit_;
+};
+
+/// Error of the energy balance over the energy that changed hands since the start.
+double closure_error(const EnergyBudget& energy, double first_balance, double first_size);
+
+}  // namespace dem

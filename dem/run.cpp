@@ -1,0 +1,228 @@
+#include "dem/run.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "common/errors.hpp"
+#include "common/output_folder.hpp"
+#include "common/progress.hpp"
+#include "common/window_channel.hpp"
+#include "common/window_clock.hpp"
+#include "common/xdmf.hpp"
+#include "dem/build_simulation.hpp"
+#include "dem/flow_windows.hpp"
+#include "dem/report.hpp"
+#include "dem/window_output.hpp"
+
+namespace dem {
+
+namespace {
+
+/// The windows this run is to compute, and the water in each of them.
+class FlowSource {
+ public:
+    FlowSource(const common::StageCommand& command, const Scene& scene)
+        : scene_(scene), folder_(command.upstream), follow_(command.follow) {
+        if (!folder_.empty()) reader_.emplace(folder_, "cmps", expected_flow(), follow_);
+    }
+    bool has_flow() const { return reader_.has_value(); }
+    std::string digest() { return has_flow() ? reader_->first().scene_digest : std::string(); }
+    double begin() { return has_flow() ? reader_->first().t_begin : 0.0; }
+
+    /// Fixes the start; throws InputError when the flow does not reach from there to the end asked for.
+    void start_at(double t) {
+        start_ = t;
+        if (!has_flow()) {
+            if (t >= scene_.time.end) throw common::InputError(fmt::format("the run would start at t = {} s, after time.end = {} s", t, scene_.time.end));
+            clock_.emplace(t, scene_.time.end, scene_.time.window);
+            return;
+        }
+        if (!follow_ && reader_->available_until() < scene_.time.end - tolerance)
+            throw common::InputError(fmt::format("{}: the flow ends at t = {} s, before time.end = {} s", folder_.string(),
+                                                 reader_->available_until(), scene_.time.end));
+        const auto index = reader_->index_at(t);
+        if (!index) throw common::InputError(fmt::format("{}: the flow does not hold t = {} s, where the run starts", folder_.string(), t));
+        first_ = *index;
+    }
+
+    struct Span {
+        double begin, end;
+        std::optional<FlowGrid> grid;
+    };
+    /// Window `index` of this run, or nothing when all is done.
+    std::optional<Span> receive(std::int64_t index) {
+        if (!has_flow()) {
+            if (index >= clock_->window_count()) return {};
+            return Span{clock_->begin_of(index), clock_->end_of(index), {}};
+        }
+        const auto window = reader_->receive(first_ + index);
+        if (!window) return {};
+        const double begin = index == 0 ? start_ : window->t_begin, end = std::min(window->t_end, scene_.time.end);
+        if (end <= begin + tolerance) return {};
+        return Span{begin, end, flow_grid_of(*window, scene_.still_outside)};
+    }
+
+ private:
+    static constexpr double tolerance = 1e-9;  // s, rounding of window ends
+    const Scene& scene_;
+    std::filesystem::path folder_;
+    bool follow_;
+    std::optional<common::WindowReader> reader_;
+    std::optional<common::WindowClock> clock_;
+    double start_ = 0;
+    std::int64_t first_ = 0;
+};
+
+/// Blocks ready to go, where their displacement is measured from, and when the run starts.
+struct Start {
+    std::unique_ptr<Simulation> simulation;
+    PackedPoses packed;
+    std::optional<double> t;  ///< of an earlier run; a packing has none
+};
+
+Start packed_start(const Scene& scene, common::Progress& progress) {
+    Start start{.simulation = build_simulation(scene, true), .packed = {}, .t = {}};
+    if (scene.packing.settle) {
+        const auto packing = build_simulation(scene, true);
+        if (packing->water() != nullptr) packing->water()->motion = UniformWater{.element_diameter = scene.element.diameter};
+        settle(*packing, scene.packing, [&](double t) { progress.update(t, "packing"); });
+        take_over(*start.simulation, *packing);
+    }
+    start.packed = poses_of(start.simulation->blocks);
+    return start;
+}
+
+Start start_from(const std::filesystem::path& from, const Scene& scene) {
+    const Snapshot snapshot = read_start(from, scene);
+    Start start{.simulation = build_simulation(scene, true), .packed = snapshot.packed, .t = {}};
+    if (!snapshot.is_packing) start.t = snapshot.t;
+    restore(*start.simulation, snapshot);
+    if (!scene.wires.put_back.empty()) put_back(*start.simulation, scene.wires.put_back, start.packed);
+    mount_layout(*start.simulation, scene, start.packed, snapshot.is_packing ? nullptr : &snapshot.wires);
+    return start;
+}
+
+std::string input_digest_of(const common::StageCommand& command, FlowSource& flow) {
+    std::string digest = flow.digest();
+    if (!command.from.empty()) digest += common::read_data_file(command.from).text("scene_digest");
+    return digest;
+}
+
+std::string scene_digest_of(const common::SceneFile& file, const common::SceneFile* layout, const Scene& scene, const std::string& input) {
+    return file.digest((layout != nullptr ? layout->digest() : std::string()) + placement_digest(scene.placed, scene.surroundings) + input);
+}
+
+common::DataFile state_of(const Simulation& simulation, const PackedPoses& packed, const Scene& scene, const Report& report) {
+    auto state = to_data_file(take_snapshot(simulation, packed, placement_digest(scene.placed, scene.surroundings)));
+    report.store(state);
+    return state;
+}
+
+/// Advances over one window, a sample at every output time.
+common::Window advance(Simulation& simulation, const PackedPoses& packed, const Scene& scene, double begin, double end,
+                       std::int64_t index, common::Progress& progress, Report& report) {
+    WindowOutput output;
+    const auto samples = common::WindowClock(begin, end, end - begin).samples_in(0, scene.output_interval);
+    output.record(simulation, packed);
+    for (std::size_t k = 1; k < samples.size(); ++k) {
+        simulation.advance(samples[k]);
+        output.record(simulation, packed);
+        report.look(simulation);
+        progress.update(simulation.time(), fmt::format("{} of {} blocks asleep", simulation.asleep_count(), simulation.blocks.size()));
+    }
+    return output.take(index);
+}
+
+}  // namespace
+
+void pack(const common::StageCommand& command, const common::SceneFile& file, const Scene& scene) {
+    const std::string digest = scene_digest_of(file, nullptr, scene, "packing");
+    common::OutputFolder folder(command.out, {.stage = "dem", .scene_digest = digest, .input_digest = ""}, command.resume);
+    if (folder.start() == common::OutputFolder::Start::nothing_to_do) return;
+    common::Progress progress("dem pack", 0, scene.packing.longest, command.quiet);
+    Report report(command.out, file, scene, digest, "");
+    try {
+        const auto simulation = build_simulation(scene, true);
+        if (simulation->water() != nullptr) simulation->water()->motion = UniformWater{.element_diameter = scene.element.diameter};
+        WindowOutput output;
+        const PackedPoses placed = poses_of(simulation->blocks);
+        simulation->start(0);
+        report.set_first_energy(simulation->energy());
+        output.record(*simulation, placed);
+        settle(*simulation, scene.packing, [&](double t) {
+            output.record(*simulation, placed);
+            progress.update(t, "packing");
+        });
+        const PackedPoses packed = poses_of(simulation->blocks);
+        folder.write_geometry(geometry_of(*simulation, packed, placement_digest(scene.placed, scene.surroundings)));
+        Snapshot snapshot = take_snapshot(*simulation, packed, placement_digest(scene.placed, scene.surroundings));
+        snapshot.is_packing = true;
+        report.look(*simulation);
+        folder.publish(output.take(0), to_data_file(snapshot));
+        report.window_done(*simulation, placed, 1);
+    } catch (const std::exception& error) {
+        report.end(dynamic_cast<const common::Interrupted*>(&error) != nullptr ? "interrupted" : "failed", error.what());
+        throw;
+    }
+    report.end("done");
+    progress.finish("packed");
+}
+
+void run(const common::StageCommand& command, const common::SceneFile& file, const common::SceneFile* layout, const Scene& scene) {
+    FlowSource flow(command, scene);
+    const std::string input = input_digest_of(command, flow);
+    const std::string digest = scene_digest_of(file, layout, scene, input);
+    // Whatever is wrong with the input shows before anything in the folder is touched.
+    std::optional<Start> earlier;
+    if (!command.from.empty()) earlier = start_from(command.from, scene);
+    const double begin = scene.restart_clock.value_or(earlier && earlier->t ? *earlier->t : flow.begin());
+    flow.start_at(begin);
+
+    common::OutputFolder folder(command.out, {.stage = "dem", .scene_digest = digest, .input_digest = input}, command.resume);
+    if (folder.start() == common::OutputFolder::Start::nothing_to_do) return;
+    common::Progress progress("dem", begin, scene.time.end, command.quiet);
+    Report report(command.out, file, scene, digest, input);
+    try {
+        Start start;
+        std::optional<FlowSource::Span> span = flow.receive(folder.next_window());
+        if (folder.start() == common::OutputFolder::Start::go_on) {
+            const Snapshot snapshot = snapshot_from(folder.state());
+            start = {.simulation = build_simulation(scene, true), .packed = snapshot.packed, .t = snapshot.t};
+            start.simulation->mount_wires(snapshot.wires);
+            restore(*start.simulation, snapshot);
+            report.restore(folder.state());
+        } else {
+            start = earlier ? std::move(*earlier) : packed_start(scene, progress);
+            if (!earlier) mount_layout(*start.simulation, scene, start.packed, nullptr);
+            if (span && span->grid) {
+                require_cover(*span->grid, start.simulation->blocks, command.upstream.string());
+                start.simulation->water()->motion = *span->grid;
+            }
+            start.simulation->blocks_were_placed(begin);
+            report.set_first_energy(start.simulation->energy());
+        }
+        Simulation& simulation = *start.simulation;
+        folder.write_geometry(geometry_of(simulation, start.packed, placement_digest(scene.placed, scene.surroundings)));
+        common::XdmfIndex pictures;
+        for (std::int64_t index = folder.next_window(); span; span = flow.receive(++index)) {
+            if (span->grid && simulation.water() != nullptr) simulation.water()->motion = std::move(*span->grid);
+            common::Window window = advance(simulation, start.packed, scene, span->begin, span->end, index, progress, report);
+            pictures.add(window);
+            folder.publish(std::move(window), state_of(simulation, start.packed, scene, report));
+            pictures.write(command.out, "dem");
+            report.window_done(simulation, start.packed, index + 1);
+        }
+    } catch (const common::Interrupted&) {
+        report.end("interrupted", "interrupted");
+        throw;
+    } catch (const std::exception& error) {
+        report.end("failed", error.what());
+        throw;
+    }
+    report.end("done");
+    progress.finish("done");
+}
+
+}  // namespace dem

@@ -1,0 +1,213 @@
+/// Shapes, placed blocks, mound and walls out of a scene.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "common/errors.hpp"
+#include "dem/placement.hpp"
+#include "dem/scene.hpp"
+
+namespace dem {
+
+using common::Range;
+using common::SceneFile;
+using common::Section;
+
+namespace {
+
+std::vector<Vector> vectors(const std::vector<std::vector<double>>& rows) {
+    std::vector<Vector> result;
+    for (const auto& row : rows) result.emplace_back(row[0], row[1], row[2]);
+    return result;
+}
+
+/// Shapes in use, made once each.
+class ShapeBook {
+ public:
+    ShapeBook(const SceneFile& file, Scene& scene) : file_(file), scene_(scene) {}
+
+    /// Index of the shape `section.shape` names, or nothing after a mistake.
+    std::optional<int> read(const Section& section) {
+        const std::string name =
+            section.text("shape", "built-in shape or TOML file with [dem.shape]", std::string("beehive96"));
+        if (const auto known = index_.find(name); known != index_.end()) return known->second;
+        try {
+            const ShapeDescription description = find_shape(name, file_.path().parent_path());
+            scene_.placed.shapes.push_back(make_shape(description, scene_.element, scene_.water.density));
+        } catch (const std::exception& error) {
+            section.problem("shape", error.what());
+            return {};
+        }
+        return index_[name] = static_cast<int>(scene_.placed.shapes.size()) - 1;
+    }
+
+ private:
+    const SceneFile& file_;
+    Scene& scene_;
+    std::map<std::string, int> index_;
+};
+
+void read_single_blocks(const Section& dem, ShapeBook& book, Scene& scene) {
+    for (const Section& entry : dem.tables("block")) {
+        const auto shape = book.read(entry);
+        const auto position = entry.numbers("position", "m", "centre of mass", 3, Range::any());
+        const auto turn = entry.numbers("orientation", "-", "quaternion w, x, y, z", 4, Range::any(),
+                                        std::vector<double>{1, 0, 0, 0});
+        const auto velocity = entry.numbers("velocity", "m/s", "at the start", 3, Range::any(), std::vector<double>{0, 0, 0});
+        const auto spin = entry.numbers("angular_velocity", "rad/s", "at the start, world axes", 3, Range::any(),
+                                        std::vector<double>{0, 0, 0});
+        const bool fixed = entry.boolean("fixed", "never moves", false);
+        const Quaternion orientation(turn[0], turn[1], turn[2], turn[3]);
+        if (orientation.norm() < 1e-6) {
+            entry.problem("orientation", "expected a quaternion other than zero");
+            continue;
+        }
+        if (!shape) continue;
+        const Quaternion body = orientation.normalized() *
+                                scene.placed.shapes[static_cast<std::size_t>(*shape)].body_from_file.conjugate();
+        scene.placed.add(*shape, Vector(position[0], position[1], position[2]), body, fixed,
+                         Vector(velocity[0], velocity[1], velocity[2]), Vector(spin[0], spin[1], spin[2]));
+    }
+}
+
+void read_walls(const Section& dem, Scene& scene) {
+    for (const Section& entry : dem.tables("planes")) {
+        const auto point = entry.numbers("point", "m", "a point of the plane", 3, Range::any());
+        const auto normal = entry.numbers("normal", "-", "towards the blocks", 3, Range::any());
+        const Vector direction(normal[0], normal[1], normal[2]);
+        if (direction.norm() < 1e-12) {
+            entry.problem("normal", "expected a vector other than zero");
+            continue;
+        }
+        scene.surroundings.planes.push_back({Vector(point[0], point[1], point[2]), direction.normalized()});
+    }
+    scene.width = dem.number("width", "m", "of the armour along the breakwater; 0: unbounded", Range::not_negative(), 0.0);
+    const std::string sides = dem.choice("sides", "what bounds the width", {"walls", "periodic", "open"},
+                                         scene.width > 0 ? "walls" : "open");
+    if (sides != "open" && scene.width <= 0) dem.problem("sides", "needs dem.width");
+    if (sides == "walls" && scene.width > 0) {
+        scene.surroundings.planes.push_back({Vector(0, 0, 0), Vector(0, 1, 0)});
+        scene.surroundings.planes.push_back({Vector(0, scene.width, 0), Vector(0, -1, 0)});
+    }
+    if (sides == "periodic") scene.surroundings.period = scene.width;
+}
+
+/// The mean mound and its rough columns; empty with mound = "none".
+MoundDescription read_mound(const Section& dem, const Scene& scene, double block_height, std::vector<Vector>& spheres) {
+    MoundDescription mound;
+    if (!dem.has("mound") || dem.is_text("mound")) {
+        dem.choice("mound", "table with profile, roughness, seed", {"none"}, "none");
+        return mound;
+    }
+    const Section section = dem.table("mound");
+    mound.profile = section.points("profile", "m", "mean surface [[x, z], ...], x increasing");
+    mound.roughness = section.number("roughness", "m", "standard deviation of the columns' heights; default a third of the block height",
+                                     Range::not_negative(), block_height / 3);
+    mound.seed = static_cast<std::uint64_t>(section.integer("seed", "of the random heights", Range::not_negative(), 1));
+    const auto y = section.numbers("y", "m", "extent along the breakwater", 2, Range::any(),
+                                   std::vector<double>{0, scene.width > 0 ? scene.width : 1.0});
+    mound.least_depth = section.number("least_depth", "m", "columns reach at least so far down", Range::not_negative(), 0.0);
+    mound.y_begin = y[0];
+    mound.y_end = y[1];
+    mound.diameter = scene.element.diameter;
+    bool good = mound.profile.size() >= 2 && y[1] > y[0];
+    for (std::size_t i = 1; i < mound.profile.size(); ++i) good = good && mound.profile[i][0] > mound.profile[i - 1][0];
+    if (!good) {
+        section.problem("profile", "expected at least two points with x increasing, and y = [from, to] with to > from");
+        mound.profile.clear();
+        return mound;
+    }
+    const double columns = (mound.profile.back()[0] - mound.profile.front()[0]) * (y[1] - y[0]) /
+                           (mound.diameter * mound.diameter);
+    if (columns > 2e7) {
+        section.problem("profile", fmt::format("would need {:.2g} columns of spheres; at most 2e7", columns));
+        mound.profile.clear();
+        return mound;
+    }
+    spheres = build_mound(mound);
+    return mound;
+}
+
+/// Row by row from the shore, row 1 at `origin`, each row a pitch further offshore, columns towards larger y.
+void read_armour(const Section& dem, ShapeBook& book, Scene& scene, std::optional<int>& shape, double& block_height) {
+    const Section blocks = dem.table("blocks");
+    shape = book.read(blocks);
+    if (!shape) return;
+    block_height = scene.placed.shapes[static_cast<std::size_t>(*shape)].height;
+    scene.rows = static_cast<std::size_t>(blocks.integer("rows", "across the breakwater", Range::between(1, 10000)));
+    scene.columns = static_cast<std::size_t>(blocks.integer("columns", "along the breakwater", Range::between(1, 10000)));
+}
+
+void place_armour(const Section& dem, Scene& scene, int shape, const FixedSpheres& mound) {
+    const Section blocks = dem.table("blocks");
+    const Shape& form = scene.placed.shapes[static_cast<std::size_t>(shape)];
+    const auto origin = blocks.numbers("origin", "m", "x, y of block 1", 2, Range::any());
+    const auto pitch = blocks.numbers("pitch", "m", "across and along", 2, Range::positive(),
+                                      std::vector<double>{1.05 * form.length, 1.05 * form.length});
+    const auto behind = blocks.integer("fixed_rows", "fixed rows between row 1 and the shore", Range::between(0, 100), 0);
+    const bool has_level = blocks.has("level");
+    const double level = has_level ? blocks.number("level", "m", "height of all centres; default: just above the mound", Range::any(), 0.0) : 0;
+    const auto layers = static_cast<std::size_t>(blocks.integer("layers", "on top of each other", Range::between(1, 100), 1));
+    scene.displaced_volume = blocks.number("displaced_volume", "m3", "water displaced by one block; 0: by its elements", Range::not_negative(), 0.0);
+    if (!has_level && mound.empty()) blocks.problem("level", "required where there is no mound: height of the blocks' centres");
+    const ArmourPlan plan{.shape = shape,
+                          .rows = scene.rows,
+                          .columns = scene.columns,
+                          .layers = layers,
+                          .fixed_rows = static_cast<std::size_t>(behind),
+                          .origin_x = origin[0],
+                          .origin_y = origin[1],
+                          .pitch_across = pitch[0],
+                          .pitch_along = pitch[1],
+                          .level = has_level ? std::optional<double>(level) : std::nullopt};
+    place_blocks(scene.placed, plan, mound);
+}
+
+}  // namespace
+
+void read_blocks(const SceneFile& file, Scene& scene) {
+    const Section dem = file.section("dem");
+    ShapeBook book(file, scene);
+    read_walls(dem, scene);
+    double block_height = 3 * scene.element.diameter;
+    std::optional<int> armour;
+    if (dem.has("blocks")) read_armour(dem, book, scene, armour, block_height);
+
+    std::vector<Vector> fixed = vectors(dem.rows("fixed_spheres", "m", "centres of fixed spheres of diameter d", 3,
+                                                 std::vector<std::vector<double>>{}));
+    std::vector<Vector> columns;
+    read_mound(dem, scene, block_height, columns);
+    fixed.insert(fixed.end(), columns.begin(), columns.end());
+    double largest = scene.element.diameter;
+    for (const auto& shape : scene.placed.shapes) largest = std::max(largest, shape.diameter);
+    const double reach = 0.5 * (largest + scene.element.diameter) + scene.step.skin;
+    if (scene.surroundings.period > 0) fixed = with_images(fixed, scene.surroundings.period, reach);
+    scene.surroundings.fixed_spheres = FixedSpheres(std::move(fixed), scene.element.diameter, reach);
+
+    if (armour) place_armour(dem, scene, *armour, scene.surroundings.fixed_spheres);
+    const std::size_t placed_singly = scene.placed.size();
+    read_single_blocks(dem, book, scene);
+    if (scene.placed.size() == 0) dem.problem("", "no blocks: give [dem.blocks] or [[dem.block]]");
+
+    const Section packing = dem.table("packing");
+    scene.packing.settle = packing.choice("method", "how blocks come to rest before the run", {"settle", "none"},
+                                          armour ? "settle" : "none") == "settle";
+    scene.packing.longest = packing.number("longest", "s", "packing gives up after", Range::positive(), 5.0);
+    scene.packing.speed = packing.number("speed", "m/s", "slower blocks have settled", Range::positive(), 1e-3);
+
+    const double allowed = scene.step.element_overlap_allowed * scene.element.diameter;
+    if (const auto clash = deepest_overlap(scene.placed, scene.surroundings); clash.depth > allowed) {
+        const auto tables = dem.tables("block");
+        const std::size_t single = clash.block - std::min(clash.block, placed_singly);
+        const std::string message = fmt::format("block {} starts {:.2g} m deep in {}; at most {:.2g} m", clash.block + 1, clash.depth,
+                                                clash.partner, allowed);
+        if (clash.block >= placed_singly && single < tables.size())
+            tables[single].problem("position", message);
+        else
+            dem.table("blocks").problem("origin", message);
+    }
+}
+
+}  // namespace dem

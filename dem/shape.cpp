@@ -1,0 +1,94 @@
+#include "dem/shape.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace dem {
+
+namespace {
+
+/// Spheres that a sphere of the same size can touch without cutting into others by more than a twentieth.
+std::vector<int> find_exposed(const std::vector<Vector>& spheres, double diameter) {
+    constexpr int directions = 600;
+    const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
+    const double least_distance = 0.95 * diameter;
+    std::vector<int> exposed;
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+        bool reachable = false;
+        for (int k = 0; k < directions && !reachable; ++k) {
+            const double z = 1 - (2 * k + 1.0) / directions, r = std::sqrt(1 - z * z);
+            const Vector visitor =
+                spheres[i] + diameter * Vector(r * std::cos(golden_angle * k), r * std::sin(golden_angle * k), z);
+            reachable = true;
+            for (std::size_t j = 0; j < spheres.size() && reachable; ++j)
+                if (j != i && (visitor - spheres[j]).squaredNorm() < least_distance * least_distance) reachable = false;
+        }
+        if (reachable) exposed.push_back(static_cast<int>(i));
+    }
+    return exposed;
+}
+
+/// Rotation onto principal axes; none where the axes already are principal.
+Quaternion principal_axes(const Rotation& inertia) {
+    const double off_diagonal = std::abs(inertia(0, 1)) + std::abs(inertia(0, 2)) + std::abs(inertia(1, 2));
+    if (off_diagonal <= 1e-12 * inertia.trace()) return Quaternion::Identity();
+    const Eigen::SelfAdjointEigenSolver<Rotation> solver(inertia);
+    Rotation axes = solver.eigenvectors();
+    if (axes.determinant() < 0) axes.col(2) = -axes.col(2);
+    return Quaternion(Rotation(axes.transpose()));
+}
+
+}  // namespace
+
+Shape make_shape(const ShapeDescription& description, const Element& element, double water_density) {
+    const std::size_t count = description.spheres.size();
+    if (count == 0) throw std::invalid_argument("a shape needs at least one sphere");
+    Shape shape;
+    shape.name = description.name;
+    shape.diameter = description.diameter * element.diameter;
+    const double elements = description.elements > 0 ? description.elements : static_cast<double>(count);
+    shape.elements_per_sphere = elements / static_cast<double>(count);
+    shape.displaced_volume = elements * element.volume();
+    shape.mass = description.mass.value_or(water_density * element.density_ratio * shape.displaced_volume);
+    if (shape.mass <= 0) throw std::invalid_argument("the mass of a shape must be positive");
+
+    Vector centre = Vector::Zero(), least = description.spheres[0], most = description.spheres[0];
+    for (const auto& sphere : description.spheres) {
+        centre += sphere / static_cast<double>(count);
+        least = least.cwiseMin(sphere);
+        most = most.cwiseMax(sphere);
+    }
+    for (const auto& sphere : description.spheres) shape.spheres.push_back((sphere - centre) * element.diameter);
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if ((shape.spheres[i] - shape.spheres[j]).norm() < 1e-6 * shape.diameter)
+                throw std::invalid_argument(fmt::format("spheres {} and {} are at the same place", j + 1, i + 1));
+    shape.length = (most - least).x() * element.diameter + shape.diameter;
+    shape.height = (most - least).z() * element.diameter + shape.diameter;
+
+    const double sphere_mass = shape.mass / static_cast<double>(count);
+    const double radius = shape.diameter / 2;
+    Rotation inertia = Rotation::Zero();
+    for (const auto& r : shape.spheres)
+        inertia += sphere_mass * ((r.squaredNorm() + 0.4 * radius * radius) * Rotation::Identity() - r * r.transpose());
+    if (description.inertia) inertia = description.inertia->asDiagonal();
+    shape.body_from_file = principal_axes(inertia);
+    const Rotation turn = shape.body_from_file.toRotationMatrix();
+    shape.inertia = (turn * inertia * turn.transpose()).diagonal();
+    if (shape.inertia.minCoeff() <= 0) throw std::invalid_argument("the inertia of a shape must be positive");
+    shape.low = Vector::Constant(1e300);
+    shape.high = -shape.low;
+    shape.radius = 0;
+    for (auto& sphere : shape.spheres) {
+        sphere = turn * sphere;
+        shape.low = shape.low.cwiseMin(sphere);
+        shape.high = shape.high.cwiseMax(sphere);
+        shape.radius = std::max(shape.radius, sphere.norm() + radius);
+    }
+    shape.exposed = find_exposed(shape.spheres, shape.diameter);
+    return shape;
+}
+
+}  // namespace dem

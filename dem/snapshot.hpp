@@ -1,0 +1,43 @@
+/// All that a run needs to go on bit for bit, as a file: state.h5.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/data_file.hpp"
+#include "dem/step.hpp"
+
+namespace dem {
+
+/// Where blocks stood when packing ended: displacements and rest lengths are measured from here.
+struct PackedPoses {
+    std::vector<Vector> position;
+    std::vector<Quaternion> orientation;
+};
+
+struct Snapshot {
+    double t = 0;
+    bool is_packing = false;        ///< written by `dem pack`: nothing but weight has acted yet
+    std::string placement_digest;   ///< of shapes, places, mound and walls: states of other scenes are refused
+    Blocks blocks;                  ///< without shapes
+    PackedPoses packed;
+    Wires wires;
+    Simulation::Memory memory{};
+};
+
+/// Digest of shapes, placed blocks, fixed spheres and planes.
+std::string placement_digest(const Blocks& placed, const Surroundings& surroundings);
+
+/// Everything about a running simulation.
+Snapshot take_snapshot(const Simulation& simulation, const PackedPoses& packed, const std::string& placement);
+common::DataFile to_data_file(const Snapshot& snapshot);
+/// Throws common::InputError naming the dataset at fault. `blocks` of the result carry no shapes: give them those of the scene.
+Snapshot snapshot_from(const common::DataFile& file);
+
+/// Rows of three (or w, x, y, z) for files.
+std::vector<double> flat(const std::vector<Vector>& vectors);
+std::vector<double> flat(const std::vector<Quaternion>& quaternions);
+std::vector<Vector> vectors_from(const common::Dataset& dataset);
+std::vector<Quaternion> quaternions_from(const common::Dataset& dataset);
+
+}  // namespace dem

@@ -1,0 +1,219 @@
+#include "dem/step.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/errors.hpp"
+#include "dem/motion.hpp"
+
+namespace dem {
+
+Simulation::Simulation(Blocks placed, Surroundings surroundings, std::unique_ptr<ContactModel> contact_model,
+                       Vector gravity, StepRules rules)
+    : blocks(std::move(placed)),
+      surroundings_(std::move(surroundings)),
+      contact_model_(std::move(contact_model)),
+      gravity_(std::move(gravity)),
+      rules_(rules),
+      pair_list_(blocks, surroundings_, rules.skin) {
+    for (std::uint32_t i = 0; i < blocks.size(); ++i)
+        if (!blocks.is_fixed[i]) movable_.push_back(i);
+    find_awake();
+}
+
+void Simulation::add_water(FluidProperties properties, std::variant<UniformWater, FlowGrid> motion) {
+    auto water = std::make_unique<FluidLoads>(blocks, std::move(properties), std::move(motion));
+    water_ = water.get();
+    loads_.push_back(std::move(water));
+}
+
+void Simulation::mount_wires(Wires mounted) {
+    wires = std::move(mounted);
+    loads_.push_back(std::make_unique<WireLoads>(wires));
+}
+
+void Simulation::add_sleeping(const SleepRules& rules) {
+    std::vector<double> weights;
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+        weights.push_back(blocks.shape_of(i).mass * std::max(gravity_.norm(), 1e-3));
+    sleeping_ = std::make_unique<Sleeping>(blocks, rules, weights);
+}
+
+void Simulation::start(double t) {
+    time_ = t;
+    for (const auto& load : loads_) load->sample(blocks, t, 0);
+    contact_model_->evaluate(blocks, surroundings_, pair_list_, active_, 0);
+    sum_forces(movable_);
+    if (sleeping_) sleeping_->wake_all(blocks, t);
+    find_awake();
+}
+
+void Simulation::blocks_were_placed(double t) {
+    pair_list_.rebuild();
+    start(t);
+}
+
+void Simulation::advance(double target) {
+    const double begin = time_;
+    const auto count = std::max<std::int64_t>(
+        1, static_cast<std::int64_t>(std::ceil((target - begin) / rules_.time_step * (1 - 1e-12))));
+    const double dt = (target - begin) / static_cast<double>(count);
+    const auto every = std::max<std::int64_t>(1, std::llround(rules_.flow_interval / dt));
+    for (std::int64_t k = 0; k < count; ++k) {
+        if (k % every == 0) {
+            common::check_for_interrupt();
+            check_values();
+            const double hold = dt * static_cast<double>(std::min(every, count - k));
+            for (const auto& load : loads_) load->sample(blocks, begin + dt * static_cast<double>(k), hold);
+            if (sleeping_) {
+                sum_forces(movable_);  // those asleep too; contacts are those of the last step
+                bool changed = false;
+                dissipated_ += sleeping_->look(blocks, time_, changed);
+                if (changed) find_awake();
+            }
+        }
+        const double t = k + 1 == count ? target : begin + dt * static_cast<double>(k + 1);
+        if (awake_.empty()) {  // all asleep: the next look decides
+            time_ = t;
+            ++steps_;
+            continue;
+        }
+        step(dt, t);
+    }
+    check_values();
+}
+
+void Simulation::step(double dt, double t) {
+    for (const auto i : awake_) {
+        kick_half(blocks, i, 0.5 * dt);
+        drift(blocks, i, dt);
+    }
+    time_ = t;
+    if (pair_list_.update(awake_)) find_active();
+    contact_model_->evaluate(blocks, surroundings_, pair_list_, active_, dt);
+    sum_forces(awake_);
+    check_overlaps();
+    for (const auto i : awake_) kick_half(blocks, i, 0.5 * dt);
+    for (const auto& load : loads_) load->account(blocks, awake_, dt);
+    ++steps_;
+    awake_block_steps_ += awake_.size();
+}
+
+void Simulation::sum_forces(const std::vector<std::uint32_t>& of) {
+    for (const auto i : of) {
+        blocks.force[i] = blocks.shape_of(i).mass * gravity_;  // (11), dry part: buoyancy comes with the water
+        blocks.torque[i].setZero();
+    }
+    for (const auto& load : loads_) load->add(blocks, of, time_);
+    const auto& pairs = pair_list_.pairs();
+    for (const auto i : of)
+        for (const auto entry : pair_list_.pairs_of(i)) {
+            const Pair& pair = pairs[entry >> 1];
+            if (pair.contacts.empty()) continue;
+            if (entry & 1) {
+                blocks.force[i] -= pair.force;
+                blocks.torque[i] += pair.torque_on_partner;
+            } else {
+                blocks.force[i] += pair.force;
+                blocks.torque[i] += pair.torque_on_block;
+            }
+        }
+}
+
+void Simulation::check_overlaps() {
+    for (const auto k : active_) {
+        const Pair& pair = pair_list_.pairs()[k];
+        dissipated_ += pair.dissipated;
+        if (pair.largest_overlap <= largest_overlap_ && pair.largest_overlap <= rules_.overlap_noted) continue;
+        largest_overlap_ = std::max(largest_overlap_, pair.largest_overlap);
+        if (pair.largest_overlap > rules_.overlap_noted) ++deep_contact_steps_;
+        if (pair.largest_overlap > rules_.overlap_limit)
+            throw common::RunError(fmt::format(
+                "t = {:.5f} s: block {} is {:.2g} m deep in {}, past the limit of {:.2g} m; a shorter dem.time_step or stiffer "
+                "spheres are needed",
+                time_, pair.block + 1, pair.largest_overlap,
+                pair_list_.is_block(pair.partner)           ? fmt::format("block {}", pair.partner + 1)
+                : pair_list_.is_fixed_spheres(pair.partner) ? std::string("the fixed spheres")
+                                                            : std::string("a plane"),
+                rules_.overlap_limit));
+    }
+}
+
+void Simulation::check_values() const {
+    for (const auto i : awake_)
+        if (!blocks.position[i].allFinite() || !blocks.velocity[i].allFinite() ||
+            !blocks.orientation[i].coeffs().allFinite() || !blocks.angular_momentum[i].allFinite())
+            throw common::RunError(fmt::format("t = {:.5f} s: the motion of block {} is no longer finite", time_, i + 1));
+}
+
+void Simulation::find_awake() {
+    awake_.clear();
+    for (const auto i : movable_)
+        if (!sleeping_ || !sleeping_->is_asleep(i)) awake_.push_back(i);
+    find_active();
+}
+
+void Simulation::find_active() {
+    active_.clear();
+    const auto moves = [&](std::uint32_t block) {
+        return !blocks.is_fixed[block] && !(sleeping_ && sleeping_->is_asleep(block));
+    };
+    const auto& pairs = pair_list_.pairs();
+    for (std::uint32_t k = 0; k < pairs.size(); ++k)
+        if (moves(pairs[k].block) || (pair_list_.is_block(pairs[k].partner) && moves(pairs[k].partner)))
+            active_.push_back(k);
+}
+
+EnergyBudget Simulation::energy() const {
+    EnergyBudget budget;
+    for (const auto i : movable_) {
+        budget.kinetic += blocks.kinetic_energy(i);
+        budget.potential -= blocks.shape_of(i).mass * gravity_.dot(blocks.position[i]);
+    }
+    budget.contacts = contact_model_->elastic_energy(blocks, surroundings_, pair_list_);
+    budget.wires = wires.elastic_energy(blocks);
+    budget.dissipated = dissipated_ + wires.energy_of_broken;
+    if (water_ != nullptr) {
+        budget.water_work = water_->work;
+        budget.gross_water_work = water_->gross_work;
+    }
+    return budget;
+}
+
+Simulation::Memory Simulation::memory() const {
+    Memory memory{.pairs = {},
+                  .sleeping = {},
+                  .time = time_,
+                  .dissipated = dissipated_,
+                  .water_work = water_ != nullptr ? water_->work : 0,
+                  .gross_water_work = water_ != nullptr ? water_->gross_work : 0,
+                  .largest_overlap = largest_overlap_,
+                  .steps = steps_,
+                  .awake_block_steps = awake_block_steps_,
+                  .deep_contact_steps = deep_contact_steps_};
+    for (const auto& pair : pair_list_.pairs())
+        if (!pair.contacts.empty()) memory.pairs.push_back(pair);
+    if (sleeping_) memory.sleeping = sleeping_->memory();
+    return memory;
+}
+
+void Simulation::restore(const Memory& memory) {
+    pair_list_.rebuild();
+    pair_list_.restore(memory.pairs);
+    time_ = memory.time;
+    dissipated_ = memory.dissipated;
+    largest_overlap_ = memory.largest_overlap;
+    steps_ = memory.steps;
+    awake_block_steps_ = memory.awake_block_steps;
+    deep_contact_steps_ = memory.deep_contact_steps;
+    if (water_ != nullptr) {
+        water_->work = memory.water_work;
+        water_->gross_work = memory.gross_water_work;
+    }
+    if (sleeping_ && memory.sleeping) sleeping_->restore(*memory.sleeping);
+    find_awake();
+}
+
+}  // namespace dem

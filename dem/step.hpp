@@ -1,0 +1,106 @@
+/// The time step of the blocks, and the run's own books: energy, overlaps, who is awake.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "dem/blocks.hpp"
+#include "dem/contacts.hpp"
+#include "dem/effects/sleeping.hpp"
+#include "dem/loads.hpp"
+#include "dem/pair_list.hpp"
+
+namespace dem {
+
+/// How the run steps.
+struct StepRules {
+    double time_step = 1e-4;       ///< largest, s; steps are equal between two outputs
+    double flow_interval = 2e-3;   ///< between samples of the water and looks for sleepers, s
+    double skin = 0.0012;          ///< of the sphere pairs, m
+    double overlap_noted = 4e-4;   ///< deeper contacts are counted, m
+    double overlap_limit = 4e-3;   ///< deeper contacts stop the run, m
+    double element_overlap_allowed = 0.25;  ///< at the start, in element diameters
+};
+
+/// Energies of the whole, J. The sum `balance` stays at its first value but for errors of the time step.
+struct EnergyBudget {
+    double kinetic = 0, potential = 0, contacts = 0, wires = 0;  ///< stored
+    double dissipated = 0;                                       ///< in contacts, broken wires and by falling asleep
+    double water_work = 0, gross_water_work = 0;                 ///< put in by the water (buoyancy included)
+
+    double balance() const { return kinetic + potential + contacts + wires + dissipated - water_work; }
+};
+
+/// All that moves and all that moves it.
+class Simulation {
+ public:
+    Simulation(Blocks blocks, Surroundings surroundings, std::unique_ptr<ContactModel> contact_model, Vector gravity,
+               StepRules rules);
+    Simulation(const Simulation&) = delete;
+    Simulation& operator=(const Simulation&) = delete;
+
+    /// Adds the water; without it the blocks are dry.
+    void add_water(FluidProperties properties, std::variant<UniformWater, FlowGrid> motion);
+    /// Mounts wires (replaces those there); they hang in `wires`.
+    void mount_wires(Wires mounted);
+    void add_sleeping(const SleepRules& rules);
+
+    /// Forces at the present poses, before the first step. Contact histories stay as they are.
+    void start(double t);
+    /// Goes on to time `target` in equal steps. Throws common::RunError when overlaps or values go out of bounds.
+    void advance(double target);
+
+    double time() const { return time_; }
+    EnergyBudget energy() const;
+    std::size_t asleep_count() const { return sleeping_ ? sleeping_->count() : 0; }
+    std::uint64_t steps() const { return steps_; }
+    std::uint64_t awake_block_steps() const { return awake_block_steps_; }
+    double largest_overlap() const { return largest_overlap_; }
+    std::uint64_t deep_contact_steps() const { return deep_contact_steps_; }
+    FluidLoads* water() { return water_; }
+    const StepRules& rules() const { return rules_; }
+    /// Largest stable step at the present contacts and wires, s; see time_step.cpp.
+    double stable_time_step() const;
+
+    Blocks blocks;
+    Wires wires;
+
+    /// What a saved run adds to the poses, wires and forces.
+    struct Memory {
+        std::vector<Pair> pairs;  ///< those that touch
+        std::optional<Sleeping::Memory> sleeping;
+        double time, dissipated, water_work, gross_water_work, largest_overlap;
+        std::uint64_t steps, awake_block_steps, deep_contact_steps;
+    };
+    Memory memory() const;
+    /// Takes up a saved run; blocks and wires must have been put back before.
+    void restore(const Memory& memory);
+    /// Blocks were moved by hand: lists anew, everybody awake.
+    void blocks_were_placed(double t);
+
+    const PairList& pair_list() const { return pair_list_; }
+    const Surroundings& surroundings() const { return surroundings_; }
+
+ private:
+    void step(double dt, double t);
+    void sum_forces(const std::vector<std::uint32_t>& of);
+    void check_overlaps();
+    void check_values() const;
+    void find_awake();
+    void find_active();
+
+    Surroundings surroundings_;
+    std::unique_ptr<ContactModel> contact_model_;
+    Vector gravity_;
+    StepRules rules_;
+    PairList pair_list_;
+    std::vector<std::unique_ptr<Load>> loads_;
+    FluidLoads* water_ = nullptr;
+    std::unique_ptr<Sleeping> sleeping_;
+    std::vector<std::uint32_t> movable_, awake_, active_;
+    double time_ = 0, dissipated_ = 0, largest_overlap_ = 0;
+    std::uint64_t steps_ = 0, awake_block_steps_ = 0, deep_contact_steps_ = 0;
+};
+
+}  // namespace dem

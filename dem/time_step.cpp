@@ -1,0 +1,94 @@
+/// The largest stable time step at the present contacts.
+///
+/// For each block the springs and dashpots of its contacts and wires make a 6 x 6 stiffness and a 6 x 6 damping matrix. With the
+/// largest eigenvalues k and c of either over the mass matrix (doubled where the partner moves as well, the bound
+/// of Gershgorin), velocity Verlet with velocities half a step back is stable while k dt^2 + 2 c dt < 4.
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+
+#include "dem/step.hpp"
+
+namespace dem {
+
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+double largest_eigenvalue(const Matrix6& matrix) {
+    return Eigen::SelfAdjointEigenSolver<Matrix6>(matrix, Eigen::EigenvaluesOnly).eigenvalues()[5];
+}
+
+/// Adds value * J^T P J, with J the 3 x 6 map from the block's (scaled) velocities to the contact point and P = n n^T scaled by
+/// `normal` plus (1 - n n^T) scaled by `tangential`.
+void add_spring(Matrix6& matrix, const Vector& arm, const Vector& direction, double normal, double tangential,
+                double inverse_root_mass, const Rotation& inverse_root_inertia) {
+    Eigen::Matrix<double, 3, 6> map;
+    map.leftCols<3>() = inverse_root_mass * Rotation::Identity();
+    Rotation cross;
+    cross << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(), 0;  // omega x arm
+    map.rightCols<3>() = cross * inverse_root_inertia;
+    const Rotation spring =
+        tangential * Rotation::Identity() + (normal - tangential) * direction * direction.transpose();
+    matrix += map.transpose() * spring * map;
+}
+
+}  // namespace
+
+double Simulation::stable_time_step() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto i : movable_) {
+        const double inverse_root_mass = 1 / std::sqrt(blocks.mass(i));
+        const Rotation& turn = blocks.rotation[i];
+        const Rotation inverse_root_inertia =
+            turn * blocks.inertia(i).cwiseSqrt().cwiseInverse().asDiagonal() * turn.transpose();
+        Matrix6 stiffness = Matrix6::Zero(), damping = Matrix6::Zero();
+        bool any = false;
+        for (const auto entry : pair_list_.pairs_of(i)) {
+            const Pair& pair = pair_list_.pairs()[entry >> 1];
+            if (pair.contacts.empty()) continue;
+            any = true;
+            const bool is_partner = (entry & 1) != 0;
+            const bool both_move = pair_list_.is_block(pair.partner) && !blocks.is_fixed[pair.partner] && !blocks.is_fixed[pair.block];
+            const double share = both_move ? 2 : 1;
+            double inverse = blocks.is_fixed[pair.block] ? 0 : 1 / blocks.mass(pair.block);
+            if (pair_list_.is_block(pair.partner) && !blocks.is_fixed[pair.partner]) inverse += 1 / blocks.mass(pair.partner);
+            for (const auto& contact : pair.contacts) {
+                const Vector arm = blocks.arm(i, is_partner ? contact.b : contact.a);
+                // The direction of the contact hardly matters to the bound: arms and spheres suffice.
+                Vector direction = Vector::UnitZ();
+                if (pair_list_.is_block(pair.partner)) {
+                    Vector between = blocks.sphere_centre(pair.partner, contact.b) - blocks.sphere_centre(pair.block, contact.a);
+                    between.y() += pair.image * surroundings_.period;
+                    direction = between.normalized();
+                } else if (pair_list_.is_fixed_spheres(pair.partner)) {
+                    Vector between = surroundings_.fixed_spheres.centre(contact.b) - blocks.sphere_centre(pair.block, contact.a);
+                    between.y() += pair.image * surroundings_.period;
+                    direction = between.normalized();
+                } else {
+                    direction = pair_list_.plane(pair.partner).normal;
+                }
+                const double k = share * contact.stiffness, ratio = contact_model_->tangential_ratio();
+                const double c = share * contact_model_->damping_coefficient(1 / inverse, pair.contacts.size(), contact.stiffness);
+                add_spring(stiffness, arm, direction, k, ratio * k, inverse_root_mass, inverse_root_inertia);
+                add_spring(damping, arm, direction, c, std::sqrt(ratio) * c, inverse_root_mass, inverse_root_inertia);
+            }
+        }
+        for (std::size_t w = 0; w < wires.size(); ++w) {
+            if (!wires.is_intact[w] || (wires.block_a[w] != i && wires.block_b[w] != i)) continue;
+            any = true;
+            const Vector direction = (blocks.sphere_centre(wires.block_b[w], wires.sphere_b[w]) -
+                                      blocks.sphere_centre(wires.block_a[w], wires.sphere_a[w]))
+                                         .normalized();
+            const Vector arm = blocks.arm(i, wires.block_a[w] == i ? wires.sphere_a[w] : wires.sphere_b[w]);
+            add_spring(stiffness, arm, direction, 2 * wires.stiffness[w], 0, inverse_root_mass, inverse_root_inertia);
+        }
+        if (!any) continue;
+        const double k = largest_eigenvalue(stiffness), c = largest_eigenvalue(damping);
+        // The positive root of k dt^2 + 2 c dt = 4, written so that k = 0 is no special case.
+        least = std::min(least, 4 / (c + std::sqrt(c * c + 4 * k)));
+    }
+    return least;
+}
+
+}  // namespace dem

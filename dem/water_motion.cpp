@@ -1,0 +1,64 @@
+#include "dem/water_motion.hpp"
+
+#include <fmt/format.h>
+
+namespace dem {
+
+namespace {
+
+bool is_uniform(const std::vector<double>& axis) {
+    const double spacing = (axis.back() - axis.front()) / static_cast<double>(axis.size() - 1);
+    for (std::size_t i = 0; i < axis.size(); ++i)
+        // Axes are stored as computed; a millionth of the spacing is far above their rounding.
+        if (std::abs(axis[i] - axis.front() - static_cast<double>(i) * spacing) > 1e-4 * spacing) return false;
+    return spacing > 0;
+}
+
+}  // namespace
+
+FlowGrid::FlowGrid(FlowHistory history, bool still_outside)
+    : history_(std::move(history)), still_outside_(still_outside) {
+    if (history_.x.size() < 2 || history_.z.size() < 2 || !is_uniform(history_.x) || !is_uniform(history_.z))
+        throw std::invalid_argument("the axes of the flow grid must be uniform, with two points at least");
+    count_x_ = history_.x.size();
+    count_z_ = history_.z.size();
+    origin_x_ = history_.x.front();
+    origin_z_ = history_.z.front();
+    per_spacing_x_ = static_cast<double>(count_x_ - 1) / (history_.x.back() - origin_x_);
+    per_spacing_z_ = static_cast<double>(count_z_ - 1) / (history_.z.back() - origin_z_);
+    now_.resize(count_x_ * count_z_ * fields);
+    set_time(history_.time.front());
+}
+
+void FlowGrid::set_time(double t) {
+    const auto& time = history_.time;
+    const auto right = std::upper_bound(time.begin() + 1, time.end() - (time.size() > 1 ? 1 : 0), t);
+    const std::size_t k = time.size() > 1 ? static_cast<std::size_t>(right - time.begin()) - 1 : 0;
+    const std::size_t next = std::min(k + 1, time.size() - 1);
+    const double share = next > k ? std::clamp((t - time[k]) / (time[next] - time[k]), 0.0, 1.0) : 0.0;
+    const float *before = history_.values.data() + k * now_.size(), *after = history_.values.data() + next * now_.size();
+    for (std::size_t i = 0; i < now_.size(); ++i)
+        now_[i] = (1 - share) * static_cast<double>(before[i]) + share * static_cast<double>(after[i]);
+}
+
+WaterSample FlowGrid::at(const Vector& point) const {
+    const double across = (point.x() - origin_x_) * per_spacing_x_, up = (point.z() - origin_z_) * per_spacing_z_;
+    if (!(across >= 0 && up >= 0 && across <= static_cast<double>(count_x_ - 1) && up <= static_cast<double>(count_z_ - 1))) {
+        if (still_outside_) return {Vector(0, 0, 0), Vector(0, 0, 0), point.z() < 0 ? 1.0 : 0.0};
+        throw std::out_of_range(fmt::format("x = {:.4f} m, z = {:.4f} m is outside the flow grid (x {:.4f} to {:.4f} m, z {:.4f} to {:.4f} m)",
+                                            point.x(), point.z(), history_.x.front(), history_.x.back(),
+                                            history_.z.front(), history_.z.back()));
+    }
+    const std::size_t i = std::min(static_cast<std::size_t>(across), count_x_ - 2);
+    const std::size_t j = std::min(static_cast<std::size_t>(up), count_z_ - 2);
+    const double right = across - static_cast<double>(i), above = up - static_cast<double>(j);
+    const double* low = now_.data() + (j * count_x_ + i) * fields;
+    const double* high = low + count_x_ * fields;
+    double value[fields];
+    for (std::size_t f = 0; f < fields; ++f)
+        value[f] = (1 - above) * ((1 - right) * low[f] + right * low[f + fields]) +
+                   above * ((1 - right) * high[f] + right * high[f + fields]);
+    return {Vector(value[0], 0, value[1]), Vector(value[2], 0, value[3]), value[4]};
+}
+
+}  // namespace dem

@@ -1,0 +1,69 @@
+/// How the water moves where blocks are: a grid in x and z from the near field, or still water or a uniform current.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "dem/vector.hpp"
+
+namespace dem {
+
+/// Water at one place.
+struct WaterSample {
+    Vector velocity;      ///< u, m/s
+    Vector acceleration;  ///< Du/Dt, m/s^2
+    double wet;           ///< 0 (air) .. 1 (water)
+};
+
+/// Water below z = 0 that moves as one: at rest, or a current given by the scene.
+struct UniformWater {
+    Vector velocity{0, 0, 0};
+    Vector acceleration{0, 0, 0};
+    double element_diameter = 0.008;  ///< over which the surface is blended, m
+    bool surface = true;              ///< false: water everywhere
+
+    WaterSample at(const Vector& point) const {
+        const double wet = surface ? std::clamp(0.5 - point.z() / element_diameter, 0.0, 1.0) : 1.0;
+        return {velocity, acceleration, wet};
+    }
+};
+
+/// Samples of the near field, linear in time and bilinear in space, uniform in y.
+struct FlowHistory {
+    std::vector<double> time;  ///< s, increasing
+    std::vector<double> x, z;  ///< m, increasing
+    /// (time, z, x, 5): u_x, u_z, Du_x/Dt, Du_z/Dt, wet; float as stored in windows.
+    std::vector<float> values;
+};
+
+/// The flow grid at one instant.
+class FlowGrid {
+ public:
+    static constexpr std::size_t fields = 5;
+
+    FlowGrid() = default;
+    explicit FlowGrid(FlowHistory history, bool still_outside = false);
+
+    /// Interpolates the grid to time t, which must lie within the history (a rounding error outside is inside).
+    void set_time(double t);
+    double begin() const { return history_.time.front(); }
+    double end() const { return history_.time.back(); }
+    bool covers(double x, double z) const {
+        return x >= history_.x.front() && x <= history_.x.back() && z >= history_.z.front() && z <= history_.z.back();
+    }
+    const FlowHistory& history() const { return history_; }
+
+    /// Outside the grid: still water below z = 0 where the scene says so; else std::out_of_range.
+    WaterSample at(const Vector& point) const;
+
+ private:
+    FlowHistory history_;
+    bool still_outside_ = false;
+    std::vector<double> now_;  // (z, x, fields)
+    double origin_x_ = 0, origin_z_ = 0, per_spacing_x_ = 0, per_spacing_z_ = 0;
+    std::size_t count_x_ = 0, count_z_ = 0;
+};
+
+}  // namespace dem
