@@ -16,15 +16,18 @@ constexpr double pi = 3.14159265358979;
 double surface_elevation(const Particles& particles, const Solid& solid, double spacing, double x) {
     const double reach = 2.1 * spacing;
     std::vector<std::array<double, 2>> near;  // distance in x, z
-    double low = 1e300, high = -1e300;
+    double low = 1e300, high = -1e300, water = -1e300;
     for (std::size_t j = 0; j < particles.size(); ++j)
         if (std::abs(particles.x[j] - x) < reach) {
             near.push_back({particles.x[j] - x, particles.z[j]});
             low = std::min(low, particles.z[j]), high = std::max(high, particles.z[j]);
+            if (particles.is_fluid(j)) water = std::max(water, particles.z[j]);
         }
     if (near.empty()) return 0.0;
-    const auto free = solid.free_intervals(x, low - reach, high + 2 * reach);
-    const double bottom = free.empty() ? high : free.back()[0];
+    // the bottom of the highest free interval that water stands in; of the lowest one where all is dry
+    double bottom = high;
+    for (const auto& [from, to] : solid.free_intervals(x, low - reach, high + 2 * reach))
+        if (from < water || bottom == high) bottom = from;
     const WendlandKernel kernel{reach};
     const double full = pi * reach * reach / 7.0 / (spacing * spacing);
     const auto filled = [&](double z) {

@@ -1,10 +1,15 @@
 #include "cmps/interactions.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/parallel.hpp"
 
 namespace cmps {
+
+namespace {
+constexpr std::size_t serial_below = 2000;  // rows; less is done before threads are awake
+}
 
 template <class Kernel>
 void compute_interactions(const Kernel& kernel, const Particles& particles, const NeighbourLists& lists,
@@ -26,17 +31,34 @@ void compute_interactions(const Kernel& kernel, const Particles& particles, cons
     double* const all_w = out.weight.data();
     double* const all_g = out.weight_over_r2.data();
 
-    common::parallel_for(rows, 2000, [&](std::size_t r) {
+    common::parallel_for(rows, serial_below, [&](std::size_t r) {
         const double xi = x[first + r], zi = z[first + r];
+#pragma omp simd
+        for (std::uint32_t k = lists.start[r]; k < lists.start[r + 1]; ++k) {
+            all_dx[k] = x[neighbour[k]] - xi;
+            all_dz[k] = z[neighbour[k]] - zi;
+        }
+    });
+    // one flat run over all entries: roots and divisions stay vectorised whatever the rows' lengths
+    out.weight_over_r.resize(entries);
+    double* const all_over_r = out.weight_over_r.data();
+    constexpr std::size_t block = 4096;  // entries; small enough to stay in cache between the two loops
+    common::parallel_for((entries + block - 1) / block, 8, [&](std::size_t b) {
+        const std::size_t end = std::min(entries, (b + 1) * block);
+#pragma omp simd
+        for (std::size_t k = b * block; k < end; ++k) {
+            const double r2 = all_dx[k] * all_dx[k] + all_dz[k] * all_dz[k], r = std::sqrt(r2);
+            const double w = kernel.weight(r2), over_r = w / r;
+            all_w[k] = w, all_over_r[k] = over_r, all_g[k] = over_r / r;
+        }
+    });
+    common::parallel_for(rows, serial_below, [&](std::size_t r) {
         const std::uint32_t begin = lists.start[r], carriers = lists.carriers[r], end = lists.start[r + 1];
         double n = 0, fx = 0, fz = 0, sx = 0, sz = 0;
 #pragma omp simd reduction(+ : n, fx, fz, sx, sz)
         for (std::uint32_t k = begin; k < end; ++k) {
-            const std::int32_t j = neighbour[k];
-            const double dx = x[j] - xi, dz = z[j] - zi, r2 = dx * dx + dz * dz;
-            const double w = kernel.weight(r2), over_r = w / std::sqrt(r2), g = w / r2;
-            all_dx[k] = dx, all_dz[k] = dz, all_w[k] = w, all_g[k] = g;
-            n += w, fx += over_r * dx, fz += over_r * dz, sx += g * dx, sz += g * dz;
+            const double dx = all_dx[k], dz = all_dz[k];
+            n += all_w[k], fx += all_over_r[k] * dx, fz += all_over_r[k] * dz, sx += all_g[k] * dx, sz += all_g[k] * dz;
         }
         double xx = 0, xz = 0, zz = 0;
 #pragma omp simd reduction(+ : xx, xz, zz)

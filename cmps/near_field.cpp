@@ -92,14 +92,7 @@ void NearField::drift(double step) {
 void NearField::update_geometry() {
     {
         const common::PhaseTimer timer(seconds.neighbours);
-        if (++steps_since_sort_ > steps_between_sorts) {
-            // velocities before the step travel with the particles
-            particles.acceleration_x.swap(old_u_), particles.acceleration_z.swap(old_w_);
-            search.sort_fluid(particles, 2.0 * settings.spacing);
-            particles.acceleration_x.swap(old_u_), particles.acceleration_z.swap(old_w_);
-            steps_since_sort_ = 0;
-        }
-        if (search.update(particles)) ++counts.list_builds;
+        if (search.update(particles, {&old_u_, &old_w_})) ++counts.list_builds;
     }
     const common::PhaseTimer timer(seconds.geometry);
     std::visit([&](const auto& kernel) {

@@ -69,11 +69,10 @@ class NearField {
     PhaseSeconds seconds;
     StepCounts counts;
 
-    /// Lists and order are built anew before the next step (at every window, so that a resumed run repeats it).
-    void invalidate_order() { steps_since_sort_ = steps_between_sorts; }
+    /// Lists are built anew in the next step: done at every window, so that a resumed run repeats it.
+    void invalidate_order() { search.invalidate(); }
 
  private:
-    static constexpr int steps_between_sorts = 50;
     void drift(double step);
     void update_geometry();
     void solve_pressure(double step);
@@ -85,7 +84,6 @@ class NearField {
     std::variant<RationalKernel, WendlandKernel> kernel_;
     PressureSolver solver_;
     GradientTerm gradient_;
-    int steps_since_sort_ = steps_between_sorts;
     std::vector<double> gradient_x_, gradient_z_, unknown_pressure_, old_u_, old_w_, change_u_, change_w_;
     double largest_speed_ = 0, largest_acceleration_ = 0;
 

@@ -1,36 +1,32 @@
 #include "cmps/neighbours.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <type_traits>
 
 #include "common/parallel.hpp"
 
 namespace cmps {
-namespace {
 
-/// Cells over the particles' bounding box, column-major (z runs fastest).
-struct CellGrid {
-    double x0, z0, edge;
+/// Cells over the particles' bounding box; z runs fastest.
+struct NeighbourSearch::Cells {
+    double x0 = 1e300, z0 = 1e300, edge;
     std::size_t columns, rows;
 
-    CellGrid(const Particles& particles, std::size_t from, double cell_edge) : edge(cell_edge) {
+    Cells(const Particles& particles, double cell_edge) : edge(cell_edge) {
         double x1 = -1e300, z1 = -1e300;
-        x0 = 1e300, z0 = 1e300;
-        for (std::size_t i = from; i < particles.size(); ++i) {
+        for (std::size_t i = 0; i < particles.size(); ++i) {
             x0 = std::min(x0, particles.x[i]), x1 = std::max(x1, particles.x[i]);
             z0 = std::min(z0, particles.z[i]), z1 = std::max(z1, particles.z[i]);
         }
         columns = static_cast<std::size_t>((x1 - x0) / edge) + 1;
         rows = static_cast<std::size_t>((z1 - z0) / edge) + 1;
     }
-    std::size_t cell(double x, double z) const {
-        return static_cast<std::size_t>((x - x0) / edge) * rows + static_cast<std::size_t>((z - z0) / edge);
-    }
+    std::size_t column(double x) const { return static_cast<std::size_t>((x - x0) / edge); }
+    std::size_t row(double z) const { return static_cast<std::size_t>((z - z0) / edge); }
+    std::size_t cell(double x, double z) const { return column(x) * rows + row(z); }
 };
 
-}  // namespace
-
-bool NeighbourSearch::update(const Particles& particles) {
+bool NeighbourSearch::update(Particles& particles, const std::vector<std::vector<double>*>& companions) {
     if (is_valid_ && built_x_.size() == particles.size()) {
         const double allowed = 0.25 * skin_ * skin_;  // (half the skin) squared
         double largest = 0;
@@ -42,91 +38,145 @@ bool NeighbourSearch::update(const Particles& particles) {
         }
         if (largest < allowed) return false;
     }
-    build(particles);
+    const std::size_t count = particles.size(), first = particles.first_wall(), rows = count - first;
+    lists_.start.assign(rows + 1, 0);
+    lists_.carriers.assign(rows, 0);
+    lists_.neighbour.clear();
     is_valid_ = true;
+    if (count == 0) return true;
+
+    const double reach = radius_ + skin_, reach2 = reach * reach;
+    const Cells cells(particles, 0.5 * reach);
+    sort_fluid(particles, cells, companions);
+    sort_boundary(particles, cells);
+    built_x_ = particles.x;
+    built_z_ = particles.z;
+
+    const double* const x = particles.x.data();
+    const double* const z = particles.z.data();
+    const std::size_t first_fluid = particles.first_fluid();
+    // Writes the neighbours of row r, ascending, to `out` (room for all candidates); returns how many, and how many
+    // of them are dummies.
+    const auto collect = [&](std::size_t r, std::int32_t* out, std::uint32_t& dummies) {
+        const auto i = static_cast<std::int32_t>(first + r);
+        const double xi = x[i], zi = z[i];
+        const std::size_t column = cells.column(xi), row = cells.row(zi);
+        const std::size_t row0 = row > 2 ? row - 2 : 0, row1 = std::min(row + 2, cells.rows - 1);
+        const std::size_t column0 = column > 2 ? column - 2 : 0, column1 = std::min(column + 2, cells.columns - 1);
+        std::uint32_t found = 0;
+        const auto test = [&](std::int32_t j) {
+            const double dx = x[j] - xi, dz = z[j] - zi;
+            out[found] = j;
+            found += (dx * dx + dz * dz < reach2) & (j != i);
+        };
+        for (std::size_t c = column0; c <= column1; ++c) {
+            const std::uint32_t end = boundary_start_[c * cells.rows + row1 + 1];
+            for (std::uint32_t m = boundary_start_[c * cells.rows + row0]; m < end; ++m) test(boundary_members_[m]);
+        }
+        std::sort(out, out + found);
+        dummies = static_cast<std::uint32_t>(std::lower_bound(out, out + found, static_cast<std::int32_t>(first)) - out);
+        for (std::size_t c = column0; c <= column1; ++c) {
+            const auto end = static_cast<std::int32_t>(first_fluid + fluid_start_[c * cells.rows + row1 + 1]);
+            for (auto j = static_cast<std::int32_t>(first_fluid + fluid_start_[c * cells.rows + row0]); j < end; ++j) test(j);
+        }
+        return found;
+    };
+    const auto candidates = [&](std::size_t r) {
+        const std::size_t column = cells.column(x[first + r]), row = cells.row(z[first + r]);
+        const std::size_t row0 = row > 2 ? row - 2 : 0, row1 = std::min(row + 2, cells.rows - 1);
+        std::size_t sum = 0;
+        for (std::size_t c = column > 2 ? column - 2 : 0; c <= std::min(column + 2, cells.columns - 1); ++c)
+            sum += fluid_start_[c * cells.rows + row1 + 1] - fluid_start_[c * cells.rows + row0] +
+                   boundary_start_[c * cells.rows + row1 + 1] - boundary_start_[c * cells.rows + row0];
+        return sum;
+    };
+
+    // Blocks of rows are collected side by side, then joined: the same lists for any number of threads.
+    constexpr std::size_t block = 512;
+    const std::size_t blocks = (rows + block - 1) / block;
+    blocks_.resize(std::max(blocks_.size(), blocks));
+    common::parallel_for(blocks, 8, [&](std::size_t b) {
+        std::vector<std::int32_t>& found = blocks_[b];
+        std::size_t used = 0;
+        for (std::size_t r = b * block; r < std::min(rows, (b + 1) * block); ++r) {
+            const std::size_t room = used + candidates(r) + 1;
+            if (found.size() < room) found.resize(2 * room);
+            std::uint32_t dummies = 0;
+            const std::uint32_t count_here = collect(r, found.data() + used, dummies);
+            lists_.start[r + 1] = count_here;
+            lists_.carriers[r] = dummies;
+            used += count_here;
+        }
+    });
+    for (std::size_t r = 0; r < rows; ++r) {
+        lists_.carriers[r] += lists_.start[r];
+        lists_.start[r + 1] += lists_.start[r];
+    }
+    lists_.neighbour.resize(lists_.start[rows]);
+    common::parallel_for(blocks, 8, [&](std::size_t b) {
+        const std::size_t from = b * block, to = std::min(rows, from + block);
+        std::copy_n(blocks_[b].begin(), lists_.start[to] - lists_.start[from],
+                    lists_.neighbour.begin() + lists_.start[from]);
+    });
     return true;
 }
 
-void NeighbourSearch::build(const Particles& particles) {
-    const std::size_t count = particles.size(), first = particles.first_wall(), rows = count - first;
-    built_x_ = particles.x;
-    built_z_ = particles.z;
-    lists_.start.assign(rows + 1, 0);
-    lists_.carriers.assign(rows, 0);
-    if (count == 0) return;
-
-    const double reach = radius_ + skin_;
-    const CellGrid grid(particles, 0, reach);
-    cell_start_.assign(grid.columns * grid.rows + 1, 0);
-    cell_of_.resize(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        cell_of_[i] = static_cast<std::uint32_t>(grid.cell(particles.x[i], particles.z[i]));
-        ++cell_start_[cell_of_[i] + 1];
-    }
-    for (std::size_t c = 0; c + 1 < cell_start_.size(); ++c) cell_start_[c + 1] += cell_start_[c];
-    cell_members_.resize(count);
-    for (std::size_t i = 0; i < count; ++i) cell_members_[cell_start_[cell_of_[i]]++] = static_cast<std::int32_t>(i);
-    for (std::size_t c = cell_start_.size() - 1; c > 0; --c) cell_start_[c] = cell_start_[c - 1];
-    cell_start_[0] = 0;
-
-    // Visits candidates of particle i within reach.
-    const auto visit = [&](std::size_t i, const auto& found) {
-        const std::size_t column = cell_of_[i] / grid.rows, row = cell_of_[i] % grid.rows;
-        const std::size_t row0 = row > 0 ? row - 1 : 0, row1 = std::min(row + 1, grid.rows - 1);
-        const double x = particles.x[i], z = particles.z[i];
-        for (std::size_t c = column > 0 ? column - 1 : 0; c <= std::min(column + 1, grid.columns - 1); ++c)
-            for (std::size_t m = cell_start_[c * grid.rows + row0]; m < cell_start_[c * grid.rows + row1 + 1]; ++m) {
-                const std::int32_t j = cell_members_[m];
-                const double dx = particles.x[j] - x, dz = particles.z[j] - z;
-                if (dx * dx + dz * dz < reach * reach && static_cast<std::size_t>(j) != i) found(j);
-            }
-    };
-    constexpr std::size_t serial_below = 4000;  // rows; less is done before threads are awake
-    common::parallel_for(rows, serial_below, [&](std::size_t r) {
-        std::uint32_t neighbours = 0;
-        visit(first + r, [&](std::int32_t) { ++neighbours; });
-        lists_.start[r + 1] = neighbours;
-    });
-    for (std::size_t r = 0; r < rows; ++r) lists_.start[r + 1] += lists_.start[r];
-    lists_.neighbour.resize(lists_.start[rows]);
-    common::parallel_for(rows, serial_below, [&](std::size_t r) {
-        std::uint32_t next = lists_.start[r];
-        visit(first + r, [&](std::int32_t j) { lists_.neighbour[next++] = j; });
-        const auto begin = lists_.neighbour.begin() + lists_.start[r], end = lists_.neighbour.begin() + next;
-        std::sort(begin, end);
-        lists_.carriers[r] = static_cast<std::uint32_t>(
-            std::lower_bound(begin, end, static_cast<std::int32_t>(first)) - lists_.neighbour.begin());
-    });
-}
-
-void NeighbourSearch::sort_fluid(Particles& particles, double edge) {
-    if (particles.fluid == 0) return;
+void NeighbourSearch::sort_fluid(Particles& particles, const Cells& cells,
+                                 const std::vector<std::vector<double>*>& companions) {
     const std::size_t first = particles.first_fluid(), count = particles.fluid;
-    const CellGrid grid(particles, first, edge);
-    order_.resize(count);
-    std::vector<std::uint32_t>& cell = cell_of_;
-    cell.resize(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        order_[i] = static_cast<std::int32_t>(first + i);
-        cell[i] = static_cast<std::uint32_t>(grid.cell(particles.x[first + i], particles.z[first + i]));
+    fluid_start_.assign(cells.columns * cells.rows + 1, 0);
+    cell_of_.resize(count), order_.resize(count);
+    for (std::size_t f = 0; f < count; ++f) {
+        cell_of_[f] = static_cast<std::uint32_t>(cells.cell(particles.x[first + f], particles.z[first + f]));
+        ++fluid_start_[cell_of_[f]];
     }
-    std::sort(order_.begin(), order_.end(), [&](std::int32_t a, std::int32_t b) {
-        const std::size_t ca = cell[static_cast<std::size_t>(a) - first], cb = cell[static_cast<std::size_t>(b) - first];
-        return ca != cb ? ca < cb : a < b;
-    });
-    particles.for_each_array([&](auto& array) {
+    std::uint32_t sum = 0;
+    for (std::uint32_t& start : fluid_start_) {
+        const std::uint32_t here = start;
+        start = sum;
+        sum += here;
+    }
+    for (std::size_t f = 0; f < count; ++f) order_[fluid_start_[cell_of_[f]]++] = static_cast<std::int32_t>(f);
+    for (std::size_t c = fluid_start_.size() - 1; c > 0; --c) fluid_start_[c] = fluid_start_[c - 1];
+    fluid_start_[0] = 0;
+    if (std::is_sorted(order_.begin(), order_.end())) return;
+
+    const auto reorder = [&](auto& array) {
         using Value = typename std::remove_reference_t<decltype(array)>::value_type;
         auto& buffer = [this]() -> auto& {
             if constexpr (std::is_same_v<Value, double>)
-                return sort_buffer_;
+                return real_buffer_;
             else
-                return sort_integers_;
+                return integer_buffer_;
         }();
         buffer.resize(count);
-        for (std::size_t i = 0; i < count; ++i) buffer[i] = array[order_[i]];
+        for (std::size_t f = 0; f < count; ++f) buffer[f] = array[first + order_[f]];
         std::copy(buffer.begin(), buffer.end(), array.begin() + static_cast<std::ptrdiff_t>(first));
-    });
-    is_valid_ = false;
+    };
+    reorder(particles.x), reorder(particles.z), reorder(particles.u), reorder(particles.w);
+    reorder(particles.pressure), reorder(particles.acceleration_x), reorder(particles.acceleration_z);
+    reorder(particles.identity);
+    for (std::vector<double>* const companion : companions) reorder(*companion);
+}
+
+void NeighbourSearch::sort_boundary(const Particles& particles, const Cells& cells) {
+    const std::size_t count = particles.first_fluid();
+    boundary_start_.assign(cells.columns * cells.rows + 1, 0);
+    cell_of_.resize(count), boundary_members_.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        cell_of_[i] = static_cast<std::uint32_t>(cells.cell(particles.x[i], particles.z[i]));
+        ++boundary_start_[cell_of_[i]];
+    }
+    std::uint32_t sum = 0;
+    for (std::uint32_t& start : boundary_start_) {
+        const std::uint32_t here = start;
+        start = sum;
+        sum += here;
+    }
+    for (std::size_t i = 0; i < count; ++i)
+        boundary_members_[boundary_start_[cell_of_[i]]++] = static_cast<std::int32_t>(i);
+    for (std::size_t c = boundary_start_.size() - 1; c > 0; --c) boundary_start_[c] = boundary_start_[c - 1];
+    boundary_start_[0] = 0;
 }
 
 }  // namespace cmps

@@ -16,31 +16,32 @@ struct NeighbourLists {
     std::vector<std::int32_t> neighbour;
 };
 
-/// Keeps lists valid while particles move less than half the skin.
+/// Keeps lists valid while particles move less than half the skin. At every rebuild the fluid is put in the order of
+/// its cells, column after column, so that the candidates of a particle are three short runs of indices.
 class NeighbourSearch {
  public:
     /// radius: of the kernel, m; skin: m.
     NeighbourSearch(double radius, double skin) : radius_(radius), skin_(skin) {}
 
-    /// Rebuilds the lists when a particle has moved half the skin since, or when `invalidate` was called.
+    /// Rebuilds the lists, and reorders the fluid, when a particle has moved half the skin since, or when `invalidate`
+    /// was called. `companions` are further arrays over all particles that must follow the new order.
     /// Returns true when it did.
-    bool update(const Particles& particles);
+    bool update(Particles& particles, const std::vector<std::vector<double>*>& companions);
     void invalidate() { is_valid_ = false; }
     const NeighbourLists& lists() const { return lists_; }
 
-    /// Puts fluid particles in the order of their cells (cell edge `edge`, column after column).
-    void sort_fluid(Particles& particles, double edge);
-
  private:
-    void build(const Particles& particles);
+    struct Cells;
+    void sort_fluid(Particles& particles, const Cells& cells, const std::vector<std::vector<double>*>& companions);
+    void sort_boundary(const Particles& particles, const Cells& cells);
     double radius_, skin_;
     bool is_valid_ = false;
     NeighbourLists lists_;
     std::vector<double> built_x_, built_z_;
-    std::vector<std::uint32_t> cell_start_, cell_of_;
-    std::vector<std::int32_t> cell_members_;
-    std::vector<double> sort_buffer_;
-    std::vector<std::int32_t> sort_integers_, order_;
+    std::vector<std::uint32_t> fluid_start_, boundary_start_, cell_of_;
+    std::vector<std::int32_t> boundary_members_, order_, integer_buffer_;
+    std::vector<double> real_buffer_;
+    std::vector<std::vector<std::int32_t>> blocks_;
 };
 
 }  // namespace cmps

@@ -88,7 +88,7 @@ Simulation::Simulation(const Scene& scene, WaveField* waves, double start)
     if (scene_.has_flow) flow_.emplace(scene_.flow, solid_, scene_.settings.spacing);
     const double x1 = basin_ ? rear_of_structure(scene_) : scene_.onshore;
     for (const common::Gauge& gauge : scene_.gauges)
-        if (gauge.x > scene_.offshore && gauge.x < x1) gauges_.push_back(gauge);
+        if (gauge.x >= scene_.offshore && gauge.x <= x1) gauges_.push_back(gauge);
     gauge_series_.resize(gauges_.size());
     if (scene_.water.empty())
         initial_volume_ = volume_by_surface(field_->particles, solid_, scene_.settings.spacing, scene_.offshore, end_of_water(scene_, solid_));
