@@ -31,6 +31,7 @@ struct SceneData {
     std::map<std::string, const toml::table*> sections_read;  // sections whose keys are checked by finish()
     std::vector<std::pair<std::pair<std::uint32_t, std::uint32_t>, std::string>>
         problems;                                     // (line, column), text
+    std::set<std::string> faulty;                     // dotted keys that have a problem
     std::map<std::string, std::string> file_digests;  // key -> digest of the file it names
 
     std::string where(const std::string& dotted, const toml::node* node) const {
@@ -44,6 +45,7 @@ struct SceneData {
         std::pair<std::uint32_t, std::uint32_t> position{0, 0};
         if (node != nullptr) position = {node->source().begin.line, node->source().begin.column};
         problems.emplace_back(position, fmt::format("{}: {}: {}", where(dotted, node), dotted, message));
+        faulty.insert(dotted);
     }
 };
 
@@ -491,6 +493,9 @@ bool Section::is_text(std::string_view key) const {
 }
 
 void Section::problem(std::string_view key, const std::string& message) const {
+    // A value that was of the wrong type or range was replaced by a stand-in: what follows from that is no
+    // mistake.
+    if (!key.empty() && scene_->faulty.contains(dotted_name(name_, key))) return;
     const auto* table = static_cast<const toml::table*>(node_);
     const toml::node* node = table != nullptr && !key.empty() ? table->get(key) : nullptr;
     scene_->note(dotted_name(name_, key), node != nullptr ? node : table, message);

@@ -92,7 +92,8 @@ class Section {
     bool is_text(std::string_view key) const;
 
     /// Notes a mistake about `key` that only the stage can see ("gauge outside the flume"); finish() reports
-    /// it with file, line and key. An empty key means the table itself.
+    /// it with file, line and key. An empty key means the table itself. A key that already has a mistake gets
+    /// no second one.
     void problem(std::string_view key, const std::string& message) const;
 
     /// Dotted name of this table ("dem.blocks").

@@ -15,7 +15,7 @@ TimeSection read_time(const SceneFile& scene) {
 std::vector<Point> read_bed(const SceneFile& scene, bool required) {
     const Section flume = scene.section("flume");
     const char* about = "polyline [[x, z], ...] from offshore to shore, z = 0 at still water";
-    const auto bed =
+    auto bed =
         required ? flume.points("bed", "m", about) : flume.points("bed", "m", about, std::vector<Point>{});
     if (flume.has("bed") && bed.size() < 2) flume.problem("bed", "expected at least two points");
     for (std::size_t i = 1; i < bed.size(); ++i)
@@ -23,6 +23,7 @@ std::vector<Point> read_bed(const SceneFile& scene, bool required) {
             flume.problem(
                 "bed", fmt::format("x must increase from point to point; point {} has x = {} after {}", i + 1,
                                    bed[i][0], bed[i - 1][0]));
+            std::sort(bed.begin(), bed.end());  // so that what reads on finds a bed
             break;
         }
     return bed;

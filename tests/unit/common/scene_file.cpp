@@ -117,6 +117,15 @@ TEST(SceneFile, TenMistakesGiveTenLinesInFileOrder) {
     EXPECT_EQ(message, joined);
 }
 
+TEST(SceneFile, AKeyAtFaultGetsOneLine) {
+    const auto scene = SceneFile::parse("[waves]\nheight = 'tall'\n", "a.toml");
+    const auto waves = scene.section("waves");
+    if (waves.number("height", "m", "wave height", Range::positive()) > 0.5)
+        waves.problem("height", "higher than the water is deep");
+    EXPECT_EQ(line_count(message_of(scene)), 1u) << message_of(scene);
+    EXPECT_NE(message_of(scene).find("expected a number above 0 in m, got text \"tall\""), std::string::npos);
+}
+
 TEST(SceneFile, SyntaxErrorNamesItsPlace) {
     try {
         SceneFile::parse("[waves\nheight = 1\n", "a.toml");
