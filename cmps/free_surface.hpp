@@ -15,7 +15,8 @@ namespace cmps {
 enum class Place : std::uint8_t {
     inside,        ///< pressure unknown
     near_surface,  ///< pressure unknown; a surface particle is within the kernel
-    surface        ///< pressure zero; also walls without water
+    surface,       ///< at the surface
+    dry            ///< a wall that touches no water, or a lone particle: pressure zero
 };
 
 /// One entry per pressure carrier.

@@ -25,9 +25,9 @@ double surface_elevation(const Particles& particles, const Solid& solid, double 
         }
     if (near.empty()) return 0.0;
     // the bottom of the highest free interval that water stands in; of the lowest one where all is dry
-    double bottom = high;
+    double bottom = high, ceiling = high;
     for (const auto& [from, to] : solid.free_intervals(x, low - reach, high + 2 * reach))
-        if (from < water || bottom == high) bottom = from;
+        if (from < water || bottom == high) bottom = from, ceiling = to;
     const WendlandKernel kernel{reach};
     const double full = pi * reach * reach / 7.0 / (spacing * spacing);
     const auto filled = [&](double z) {
@@ -35,15 +35,18 @@ double surface_elevation(const Particles& particles, const Solid& solid, double 
         for (const auto& [dx, pz] : near) sum += kernel.weight(dx * dx + (pz - z) * (pz - z));
         return sum / full;
     };
+    // like a wire gauge: the wetted length above the bottom, so that a void under an overturning crest counts as air
     const double step = 0.25 * spacing;
-    double below = filled(bottom + 0.5 * spacing);
-    if (below < 0.5) return bottom;
-    for (double z = bottom + 0.5 * spacing + step; z < high + 2 * reach; z += step) {
+    double below = filled(bottom + 0.5 * spacing), wetted = below < 0.5 ? 0.0 : 0.5 * spacing;
+    for (double z = bottom + 0.5 * spacing + step; z < ceiling; z += step) {
         const double here = filled(z);
-        if (here < 0.5) return z - step * (0.5 - here) / (below - here);
+        if (below >= 0.5 && here >= 0.5)
+            wetted += step;
+        else if (below >= 0.5 || here >= 0.5)
+            wetted += step * (std::max(below, here) - 0.5) / std::abs(below - here);
         below = here;
     }
-    return high;
+    return bottom + wetted;
 }
 
 double pressure_at(const Particles& particles, double spacing, double x, double z, double diameter) {

@@ -9,8 +9,8 @@
 
 namespace cmps {
 
-/// Height of the water's surface at x: from the free bottom upwards, the first level at which half the kernel is
-/// filled by water and solid. The bottom itself where it is dry. m
+/// Height of the water's surface at x, as a wire gauge reads it: bottom plus wetted length, wet being where at least
+/// half the kernel is filled by water and solid. The bottom itself where it is dry. m
 double surface_elevation(const Particles& particles, const Solid& solid, double spacing, double x);
 
 /// Mean pressure of the wall particles within `diameter`/2 (at least one spacing) of (x, z); of the water where no

@@ -42,6 +42,7 @@ struct LatticeConstants {
     double number_density;       ///< n0 = sum w
     double lambda;               ///< sum w r^2 / n0, m^2
     double divergence_scale;     ///< -sum (w'/r) r^2 / (2 n0): what the raw higher-order source is too large by
+    double laplacian_ratio;      ///< sum of the higher-order Laplacian's coefficients over n0
     double laplacian_scale;      ///< the same for the higher-order Laplacian: sum (w'' - w'/r) r^2 / (4 n0)
 };
 
@@ -49,7 +50,7 @@ struct LatticeConstants {
 template <class Kernel>
 LatticeConstants lattice_constants(const Kernel& kernel, double spacing) {
     const int reach = static_cast<int>(std::ceil(kernel.radius / spacing));
-    double n0 = 0, moment = 0, slope_moment = 0, curvature_moment = 0;
+    double n0 = 0, moment = 0, slope_moment = 0, curvature_moment = 0, curvature = 0;
     for (int i = -reach; i <= reach; ++i)
         for (int k = -reach; k <= reach; ++k) {
             const double r2 = spacing * spacing * (i * i + k * k);
@@ -57,11 +58,13 @@ LatticeConstants lattice_constants(const Kernel& kernel, double spacing) {
             n0 += kernel.weight(r2);
             moment += kernel.weight(r2) * r2;
             slope_moment += kernel.slope(r2) * r2;
+            curvature += kernel.curvature(r2);
             curvature_moment += kernel.curvature(r2) * r2;
         }
     return {.number_density = n0,
             .lambda = moment / n0,
             .divergence_scale = -slope_moment / (2.0 * n0),
+            .laplacian_ratio = curvature / n0,
             .laplacian_scale = curvature_moment / (4.0 * n0)};
 }
 

@@ -210,7 +210,7 @@ void NearField::shift() {
     const double limit = 0.05 * l0;
     for (std::size_t f = 0; f < particles.fluid; ++f) {
         const std::size_t row = walls + f;
-        if (place[row] == Place::surface) continue;
+        if (place[row] >= Place::surface) continue;
         double sx = -factor * interactions.crowding_x[row], sz = -factor * interactions.crowding_z[row];
         if (place[row] == Place::near_surface) {
             const double fx = interactions.asymmetry_x[row], fz = interactions.asymmetry_z[row];

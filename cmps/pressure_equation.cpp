@@ -36,14 +36,28 @@ double PressureEquation::divergence(const Particles& particles, const NeighbourL
     return sum / (lattice_.number_density * lattice_.divergence_scale);
 }
 
+double PressureEquation::surface_share(const Interactions& interactions, std::size_t row) const {
+    const double asymmetry = std::hypot(interactions.asymmetry_x[row], interactions.asymmetry_z[row]);
+    // F/n0 is 0.29 in the first row of a flat surface, 0.07 in the second, 0.02 from disorder inside
+    return std::clamp((asymmetry / lattice_.number_density - 0.06) / (0.18 - 0.06), 0.0, 1.0);
+}
+
+double PressureEquation::missing_kernel(const Interactions& interactions, std::size_t row) const {
+    const double missing = std::max(0.0, lattice_.number_density - interactions.number_density[row]);
+    // p of the image is -p_i: p_i - p_image = 2 p_i
+    return 2.0 * surface_share(interactions, row) * missing;
+}
+
 void PressureEquation::assemble(const Particles& particles, const NeighbourLists& lists,
                                 const Interactions& interactions, const std::vector<Place>& place,
                                 double time_step) {
     const std::size_t first = particles.first_wall(), rows = particles.size() - first;
     unknown_of.resize(rows);
     row_of.clear();
+    const bool is_smooth = settings_.surface == SurfaceCondition::smooth;
+    const double n0 = lattice_.number_density;
     for (std::size_t r = 0; r < rows; ++r) {
-        const bool is_unknown = place[r] != Place::surface;
+        const bool is_unknown = is_smooth ? place[r] != Place::dry : place[r] < Place::surface;
         unknown_of[r] = is_unknown ? static_cast<std::int32_t>(row_of.size()) : -1;
         if (is_unknown) row_of.push_back(static_cast<std::int32_t>(r));
     }
@@ -78,16 +92,22 @@ void PressureEquation::assemble(const Particles& particles, const NeighbourLists
             matrix.value[next++] = -c;
         }
         if (!is_right) matrix.upper[a] = next;
+        if (is_smooth) diagonal += missing_kernel(interactions, row) * (is_higher_order ? lattice_.laplacian_ratio : 1.0);
         // a closed full box has no surface: the small excess makes it regular and fixes the mean
-        matrix.diagonal[a] = std::max(diagonal, 1e-3 * lattice_.number_density) * (1 + 1e-7);
+        matrix.diagonal[a] = std::max(diagonal, 1e-3 * n0) * (1 + 1e-7);
         matrix.start[a + 1] = next;
     }
     common::parallel_for(rows, 2000, [&](std::size_t row) {
-        const double n0 = lattice_.number_density;
         density_error[row] = (interactions.number_density[row] - n0) / n0;
         if (unknown_of[row] < 0) return;
-        double source = settings_.density_weight / time_step * density_error[row];
-        if (settings_.source != Source::density) source -= divergence(particles, lists, interactions, row);
+        // At the surface the kernel is cut short and the volume free to change: only p = 0 holds there. A wall, though,
+        // answers to water that comes at it before the kernel between them has filled.
+        const double inner = is_smooth ? 1 - surface_share(interactions, row) : 1.0;
+        double source = inner * settings_.density_weight / time_step * density_error[row];
+        if (settings_.source != Source::density) {
+            const double convergence = -divergence(particles, lists, interactions, row);
+            source += row < particles.walls && convergence > 0 ? convergence : inner * convergence;
+        }
         right_hand_side[static_cast<std::size_t>(unknown_of[row])] = scale * settings_.density / time_step * source;
     });
 }

@@ -24,11 +24,18 @@ namespace cmps {
 enum class Source { density, higher_order, corrected, error_compensating };
 enum class Laplacian { standard, higher_order };
 
+/// How p = 0 at the free surface enters.
+enum class SurfaceCondition {
+    detected,  ///< p = 0 at particles that are found to lie at the surface: half a spacing below the true one
+    smooth     ///< the missing part of the kernel is water of opposite pressure: p = 0 on the surface itself
+};
+
 struct PressureEquationSettings {
     Source source = Source::higher_order;
     Laplacian laplacian = Laplacian::standard;
-    double density_weight = 0.05;  ///< gamma
+    double density_weight = 0.02;  ///< gamma
     double density = 1000;         ///< rho, kg/m3
+    SurfaceCondition surface = SurfaceCondition::smooth;
 };
 
 /// Matrix, right-hand side and the place of every unknown.
@@ -55,6 +62,10 @@ class PressureEquation {
  private:
     double divergence(const Particles& particles, const NeighbourLists& lists, const Interactions& interactions,
                       std::size_t row) const;
+    /// 0 inside, 1 at the surface, by the asymmetry of the neighbourhood.
+    double surface_share(const Interactions& interactions, std::size_t row) const;
+    /// What the mirrored water above the surface adds to the diagonal.
+    double missing_kernel(const Interactions& interactions, std::size_t row) const;
     PressureEquationSettings settings_;
     LatticeConstants lattice_;
 };

@@ -94,7 +94,9 @@ void read_numerics(const common::SceneFile& file, const Section& section, Scene&
                                                {"corrected", Source::corrected}, {"error_compensating", Source::error_compensating}}, "higher_order");
     settings.pressure.laplacian = chosen<Laplacian>(section, "laplacian", "Laplacian of the pressure equation",
                                                     {{"standard", Laplacian::standard}, {"higher_order", Laplacian::higher_order}}, "standard");
-    settings.pressure.density_weight = section.number("density_weight", "-", "gamma, weight of the density term in the source", Range::between(0, 1), 0.05);
+    settings.pressure.surface = chosen<SurfaceCondition>(section, "surface", "p = 0 at detected surface particles, or smoothly at the surface itself",
+                                                        {{"smooth", SurfaceCondition::smooth}, {"detected", SurfaceCondition::detected}}, "smooth");
+    settings.pressure.density_weight = section.number("density_weight", "-", "gamma, weight of the density term in the source", Range::between(0, 1), 0.02);
     settings.pressure.density = section.number("density", "kg/m3", "of water", Range::positive(), 1000.0);
     settings.negative_pressure = section.boolean("negative_pressure", "keep pressures below zero", false);
     settings.tolerance = section.number("tolerance", "-", "of the pressure solve, relative to its right-hand side", Range::between(1e-12, 0.1), 1e-3);
