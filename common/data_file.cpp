@@ -103,6 +103,20 @@ void write_attribute(hid_t object, const std::string& name, const Attribute& val
     }
 }
 
+/// Creates the groups on the way to `dataset` that are not there. HDF5 would do so by itself, but with the
+/// time of day in their headers: same content must give the same bytes.
+void create_groups(hid_t file, const std::string& dataset, const fs::path& path) {
+    for (auto slash = dataset.find('/', 1); slash != std::string::npos;
+         slash = dataset.find('/', slash + 1)) {
+        const std::string group = dataset.substr(0, slash);
+        if (H5Lexists(file, group.c_str(), H5P_DEFAULT) > 0) continue;
+        Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+        H5Pset_obj_track_times(creation, 0);
+        Handle created(H5Gcreate2(file, group.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose);
+        require_built(created.is_valid(), path, "group " + group);
+    }
+}
+
 void write_dataset(hid_t file, const std::string& name, const Dataset& dataset, const fs::path& path) {
     const std::size_t expected =
         std::accumulate(dataset.shape.begin(), dataset.shape.end(), std::size_t{1}, std::multiplies<>());
@@ -113,8 +127,7 @@ void write_dataset(hid_t file, const std::string& name, const Dataset& dataset, 
     Handle space(extent.empty() ? H5Screate(H5S_SCALAR)
                                 : H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
                  H5Sclose);
-    Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-    H5Pset_create_intermediate_group(links, 1);
+    create_groups(file, name, path);
     Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     H5Pset_obj_track_times(creation, 0);  // same content, same bytes
     if (!extent.empty() && expected > 0) {
@@ -124,8 +137,9 @@ void write_dataset(hid_t file, const std::string& name, const Dataset& dataset, 
     }
     std::visit(
         [&]<class T>(const std::vector<T>& values) {
-            Handle set(H5Dcreate2(file, name.c_str(), stored_type<T>(), space, links, creation, H5P_DEFAULT),
-                       H5Dclose);
+            Handle set(
+                H5Dcreate2(file, name.c_str(), stored_type<T>(), space, H5P_DEFAULT, creation, H5P_DEFAULT),
+                H5Dclose);
             require_built(set.is_valid(), path, "dataset " + name);
             if (!values.empty())
                 require_built(
@@ -386,7 +400,9 @@ void write_data_file(const fs::path& path, const DataFile& content) {
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
     MemoryImage image(access);
     {
-        Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
+        Handle root(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+        H5Pset_obj_track_times(root, 0);
+        Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, root, access), H5Fclose);
         require_built(file.is_valid(), path, "the file");
         for (const auto& [name, value] : content.attributes) write_attribute(file, name, value, path);
         for (const auto& [name, dataset] : content.datasets) write_dataset(file, name, dataset, path);
