@@ -1,5 +1,6 @@
 #include "boussinesq/dispersion.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace boussinesq {
@@ -17,31 +18,38 @@ void wet_slopes(Tile& tile, const FlowParameters& flow) {
         tile.elevation_slope[t] = scale * (8.0 * (e[t + 1] - e[t - 1]) - (e[t + 2] - e[t - 2]));
 }
 
-/// The same without looking across the shoreline, and the cells next to it, whose D the slope prescribes.
+/// Marks the cells whose flow is hydrostatic: where the fluxes are first order (near dry cells and over bed
+/// steps as high as the water), their neighbours, and bores. Elsewhere the slope is the very gradient the
+/// fluxes make, weighted with the depths at the faces: any other one would let the dispersive part feed on
+/// the difference over a rough bed.
 void shoreline_slopes(Tile& tile, const FlowParameters& flow, const unsigned char* bore) {
-    const double dry = 10.0 * flow.dry_depth;
-    const double* h = tile.depth.value;
-    const double* e = tile.elevation.value;
-    const double scale = gravity / flow.alpha / flow.spacing;
+    const double scale = 0.5 * gravity / flow.alpha / flow.spacing;
     for (std::size_t t = tile.begin() - 1; t < tile.end() + 1; ++t) {
-        const bool wet = h[t] > dry, wet_offshore = h[t - 1] > dry, wet_shoreward = h[t + 1] > dry;
-        const bool inside = wet && wet_offshore && wet_shoreward;
-        const bool far_inside = inside && h[t - 2] > dry && h[t + 2] > dry;
-        double rise = 0.0;
-        if (far_inside)
-            rise = (8.0 * (e[t + 1] - e[t - 1]) - (e[t + 2] - e[t - 2])) / 12.0;
-        else if (inside)
-            rise = 0.5 * (e[t + 1] - e[t - 1]);
-        else if (wet && wet_offshore)
-            rise = e[t] - e[t - 1];
-        else if (wet && wet_shoreward)
-            rise = e[t + 1] - e[t];
-        tile.elevation_slope[t] = scale * rise;
-        tile.held[t] = !inside || (bore != nullptr && bore[tile.first + t] != 0) ? 1.0 : 0.0;
+        const bool rough =
+            tile.is_first_order[t - 1] + tile.is_first_order[t] + tile.is_first_order[t + 1] != 0.0;
+        tile.held[t] = rough || (bore != nullptr && bore[tile.first + t] != 0) ? 1.0 : 0.0;
+        const double e = tile.elevation[t];
+        const double left = tile.elevation_minus[t] + tile.elevation_plus[t] - 2.0 * e;
+        const double right = tile.elevation_minus[t + 1] + tile.elevation_plus[t + 1] - 2.0 * e;
+        const double rise =
+            ((e - tile.face_bed[t + 1]) * right - (e - tile.face_bed[t]) * left) / tile.depth[t];
+        tile.elevation_slope[t] = tile.held[t] != 0.0 ? 0.0 : scale * rise;
     }
+    tile.held[tile.begin() - 2] = tile.held[tile.end() + 1] = 0.0;  // read, but without effect on inner cells
+}
+
+/// Value at the offshore face of cell t from cell averages, fourth order.
+inline double face_value(const double* v, std::size_t t) {
+    return (7.0 * (v[t - 1] + v[t]) - (v[t - 2] + v[t + 1])) / 12.0;
+}
+/// Slope there times the spacing, fourth order.
+inline double face_difference(const double* v, std::size_t t) {
+    return (15.0 * (v[t] - v[t - 1]) - (v[t + 1] - v[t - 2])) / 12.0;
 }
 
 /// alpha h T + h on the left, h ((g/alpha) eta_x + Q) on the right, from the slopes.
+/// Beside dry cells (`is_smooth` false) face values come from the two cells at the face only.
+template <bool is_smooth>
 void assemble(Tile& tile, const FlowParameters& flow) {
     const double inverse = 1.0 / flow.spacing;
     const double sqrt3 = std::sqrt(3.0);
@@ -51,34 +59,43 @@ void assemble(Tile& tile, const FlowParameters& flow) {
     const double* s = tile.elevation_slope.value;
     const std::size_t from = tile.begin(), to = tile.end();
 
-    for (std::size_t t = from - 1; t < to + 1; ++t) {
+    for (std::size_t t = from - 2; t < to + 2; ++t) {
         const double bend = (b[t + 1] - 2.0 * b[t] + b[t - 1]) * inverse * inverse;
         tile.curvature[t] = square(h[t] * u[t]) * bend;
     }
-    for (std::size_t t = from; t < to + 1; ++t) {
-        const double depth = 0.5 * (h[t - 1] + h[t]);
+    for (std::size_t t = from - 1; t < to + 2; ++t) {
+        const double depth = is_smooth ? face_value(h, t) : 0.5 * (h[t - 1] + h[t]);
         const double bed_slope = (b[t] - b[t - 1]) * inverse;
         const double p = depth * inverse / sqrt3, r = 0.25 * sqrt3 * bed_slope, q = square(0.25 * bed_slope);
-        const double weight = flow.alpha * depth;
-        const double numerov = depth / 12.0;
+        // No coupling across the edge of held cells: the natural condition, which keeps the operator
+        // symmetric.
+        const double coupled = is_smooth ? 1.0 : (1.0 - tile.held[t - 1]) * (1.0 - tile.held[t]);
+        const double weight = coupled * flow.alpha * depth;
+        // The smaller depth keeps the matrix positive.
+        const double numerov = coupled * std::min(h[t - 1], h[t]) / 12.0;
+        tile.numerov[t] = numerov;
         tile.off_diagonal[t] = weight * (q - (p - r) * (p + r)) + numerov;
         tile.diagonal[t] = weight * (square(p - r) + q) - numerov;        // of the cell shoreward
         tile.diagonal_minus[t] = weight * (square(p + r) + q) - numerov;  // of the cell offshore
-        const double strain = depth * square((u[t] - u[t - 1]) * inverse);
+        const double difference = is_smooth ? face_difference(u, t) : u[t] - u[t - 1];
+        const double strain = depth * square(difference * inverse);
         tile.stretch[t] = square(depth) * strain;
         tile.bed_stretch[t] = depth * strain * bed_slope;
     }
-    for (std::size_t t = from; t < to; ++t) {
+    for (std::size_t t = from - 1; t < to + 1; ++t) {
         const double bed_slope = 0.5 * (b[t + 1] - b[t - 1]) * inverse;
         const double bend = (b[t + 1] - 2.0 * b[t] + b[t - 1]) * inverse * inverse;
+        tile.force[t] = (2.0 / 3.0) * (tile.stretch[t + 1] - tile.stretch[t]) * inverse +
+                        0.5 * (tile.bed_stretch[t + 1] + tile.bed_stretch[t]) +
+                        0.25 * (tile.curvature[t + 1] - tile.curvature[t - 1]) * inverse +
+                        h[t] * square(u[t]) * bend * bed_slope;
+    }
+    for (std::size_t t = from; t < to; ++t) {
         const double averaged_slope =
-            h[t] * s[t] +
-            ((h[t + 1] + h[t]) * (s[t + 1] - s[t]) - (h[t] + h[t - 1]) * (s[t] - s[t - 1])) / 24.0;
-        tile.right_side[t] = averaged_slope +
-                             (2.0 / 3.0) * (tile.stretch[t + 1] - tile.stretch[t]) * inverse +
-                             0.5 * (tile.bed_stretch[t + 1] + tile.bed_stretch[t]) +
-                             0.25 * (tile.curvature[t + 1] - tile.curvature[t - 1]) * inverse +
-                             h[t] * square(u[t]) * bend * bed_slope;
+            h[t] * s[t] + tile.numerov[t + 1] * (s[t + 1] - s[t]) - tile.numerov[t] * (s[t] - s[t - 1]);
+        const double averaged_force =
+            is_smooth ? (tile.force[t - 1] + 10.0 * tile.force[t] + tile.force[t + 1]) / 12.0 : tile.force[t];
+        tile.right_side[t] = averaged_slope + averaged_force;
         tile.diagonal[t] += h[t] + tile.diagonal_minus[t + 1];
     }
 }
@@ -87,23 +104,17 @@ void assemble(Tile& tile, const FlowParameters& flow) {
 
 void assemble_wet_dispersion(Tile& tile, const FlowParameters& flow) {
     wet_slopes(tile, flow);
-    assemble(tile, flow);
+    assemble<true>(tile, flow);
 }
 
 void assemble_shoreline_dispersion(Tile& tile, const FlowParameters& flow, const unsigned char* bore) {
     shoreline_slopes(tile, flow, bore);
-    assemble(tile, flow);
+    assemble<false>(tile, flow);
     for (std::size_t t = tile.begin(); t < tile.end(); ++t) {
-        if (tile.held[t] != 0.0) {
-            tile.diagonal[t] = 1.0;
-            tile.right_side[t] = tile.elevation_slope[t];
-        } else {  // known neighbours move to the right-hand side
-            tile.right_side[t] -= tile.held[t - 1] * tile.off_diagonal[t] * tile.elevation_slope[t - 1] +
-                                  tile.held[t + 1] * tile.off_diagonal[t + 1] * tile.elevation_slope[t + 1];
-        }
+        if (tile.held[t] == 0.0) continue;
+        tile.diagonal[t] = 1.0;
+        tile.right_side[t] = tile.elevation_slope[t];
     }
-    for (std::size_t t = tile.begin(); t <= tile.end(); ++t)
-        if (tile.held[t - 1] != 0.0 || tile.held[t] != 0.0) tile.off_diagonal[t] = 0.0;
 }
 
 void eliminate(Tile* left, Tile* right, DispersionSystem& system, ChainEnds& ends) {
@@ -143,8 +154,9 @@ void subtract_accelerations(const DispersionSystem& system, std::size_t middle, 
     const std::size_t first = ghost_cells, last = ghost_cells + cells - 1;
     const std::size_t centre = ghost_cells + middle;  // first cell of the right chain
     double left = 0.0, right = 0.0;
-    if (middle == 0 || middle == cells) {
-        left = right = 0.0;
+    if (middle == cells) {  // one chain only
+        left = value[last];
+        discharge[last] -= step * depth[last] * left;
     } else {  // where the chains meet: two unknowns, two equations
         const double ratio_left = ratio[centre - 1], ratio_right = ratio[centre];
         right = (value[centre] - ratio_right * value[centre - 1]) / (1.0 - ratio_left * ratio_right);

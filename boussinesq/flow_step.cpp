@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "boussinesq/shallow_water.hpp"
 
 namespace boussinesq {
 
-FlowStep::FlowStep(const Grid& grid, const Bed& bed, const FlowParameters& flow, FlowTerms terms)
+FlowStep::FlowStep(const Grid& grid, Bed bed, const FlowParameters& flow, FlowTerms terms)
     : grid_(grid),
-      bed_(bed),
+      bed_(std::move(bed)),
       flow_(flow),
       terms_(terms),
       before_(grid),
@@ -106,13 +107,14 @@ template <bool with_dispersion, bool with_shoreline>
 void FlowStep::sweep_tile(Tile& tile, const WaveState& start, double start_share, const WaveState& in,
                           double stage_share, double step, WaveState& out) {
     load_tile(tile, in.depth.data(), in.discharge.data(), bed_.face_level.data(), flow_, with_shoreline);
-    const bool wet = !with_shoreline || is_deep(tile, flow_);
+    // Bores need to know which cells are first order, as dry cells do.
+    const bool wet = (!with_shoreline || is_deep(tile, flow_)) && bores_ == nullptr;
     if (wet)
         wet_fluxes(tile, flow_);
     else
         shoreline_fluxes(tile, flow_, step);
     if constexpr (with_dispersion) {
-        if (wet && bores_ == nullptr)
+        if (wet)
             assemble_wet_dispersion(tile, flow_);
         else
             assemble_shoreline_dispersion(tile, flow_, bores_);

@@ -27,7 +27,7 @@ struct Survey {
 /// Advances depth and discharge.
 class FlowStep {
  public:
-    FlowStep(const Grid& grid, const Bed& bed, const FlowParameters& flow, FlowTerms terms);
+    FlowStep(const Grid& grid, Bed bed, const FlowParameters& flow, FlowTerms terms);
 
     /// state <- state after `step` seconds. `before` and `first_stage` are left for dense_output.
     void advance(WaveState& state, double step);
@@ -44,6 +44,7 @@ class FlowStep {
 
     /// Cells (padded, non-zero) whose flow is hydrostatic because they break; null: none. Kept by the caller.
     void set_bores(const unsigned char* bores) { bores_ = bores; }
+    const Bed& bed() const { return bed_; }
     FlowTerms terms() const { return terms_; }
     void set_terms(FlowTerms terms) { terms_ = terms; }
     const FlowParameters& parameters() const { return flow_; }
@@ -61,7 +62,7 @@ class FlowStep {
     void fill_ghosts(WaveState& state) const;
 
     Grid grid_;
-    const Bed& bed_;
+    Bed bed_;
     FlowParameters flow_;
     FlowTerms terms_;
     WaveState before_, first_, second_;

@@ -332,6 +332,18 @@ Scene read_scene(const common::SceneFile& file) {
         section.number("friction", "- or s/m^(1/3)", "bed friction coefficient", Range::not_negative(), 0.0);
     scene.friction_is_manning = section.choice("friction_law", "what boussinesq.friction is",
                                                {"quadratic", "manning"}, "quadratic") == "manning";
+    scene.breaks_as_bores =
+        section.choice("breaking", "how a breaking front loses energy", {"eddy_viscosity", "hydrostatic"},
+                       "eddy_viscosity") == "hydrostatic";
+    scene.breaking.start =
+        section.number("breaking_start", "-", "eta_t / sqrt(g h) at which a front begins to break",
+                       Range::between(0.1, 2), scene.breaking.start);
+    scene.breaking.end =
+        section.number("breaking_end", "-", "eta_t / sqrt(g h) below which an old front stops breaking",
+                       Range::between(0.01, 1), scene.breaking.end);
+    scene.breaking.mixing =
+        section.number("breaking_mixing", "-", "mixing length of a breaking front over depth",
+                       Range::between(0.1, 10), scene.breaking.mixing);
     const LinearDispersion dispersion{
         .alpha = scene.flow.alpha,
         .is_dispersive = common::read_effect_wish(file, "dispersion") != common::EffectWish::off};
@@ -349,8 +361,8 @@ Scene read_scene(const common::SceneFile& file) {
     const double depth = std::max(1e-3, scene.waves.depth);
     scene.flow.dry_depth = section.number("dry_depth", "m", "water thinner than this counts as dry",
                                           Range::positive(), 1e-4 * depth);
-    scene.flow.elevation_scale = 1e-3 * depth;
-    scene.flow.velocity_scale = 1e-3 * std::sqrt(gravity * depth);
+    scene.flow.elevation_scale = 1e-2 * depth;
+    scene.flow.velocity_scale = 1e-2 * std::sqrt(gravity * depth);
     file.finish();
     return scene;
 }

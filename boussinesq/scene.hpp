@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "boussinesq/effect_rules.hpp"
+#include "boussinesq/effects/breaking.hpp"
 #include "boussinesq/flow_step.hpp"
 #include "boussinesq/grid.hpp"
 #include "boussinesq/waves/wave_components.hpp"
@@ -46,6 +47,8 @@ struct Scene {
     double friction = 0;
     bool friction_is_manning = false;
     bool has_breaking = false, has_friction = false;
+    bool breaks_as_bores = false;  ///< hydrostatic bores in place of eddy viscosity
+    EddyViscosityConstants breaking;
     std::vector<common::EffectRecord> effects;
     Expectation expectation;
 

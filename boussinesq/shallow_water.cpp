@@ -127,6 +127,7 @@ void shoreline_fluxes(Tile& tile, const FlowParameters& flow, double step) {
         const double h_minus = has_shoreward ? tile.elevation_minus[t + 1] - tile.face_bed[t + 1] : 1.0;
         const bool first_order =
             lowest <= flow.dry_depth || h_plus <= 0.25 * tile.depth[t] || h_minus <= 0.25 * tile.depth[t];
+        tile.is_first_order[t] = first_order ? 1.0 : 0.0;
         if (first_order) {
             if (has_offshore)
                 tile.elevation_plus[t] = tile.elevation[t], tile.velocity_plus[t] = tile.velocity[t];

@@ -13,8 +13,8 @@ namespace boussinesq {
 Simulation::Simulation(const Grid& grid, Bed bed, const FlowParameters& flow, FlowTerms terms, double courant,
                        WaveState initial, std::vector<std::unique_ptr<StepEffect>> effects)
     : grid_(grid),
-      bed_(std::move(bed)),
-      flow_(grid_, bed_, flow, terms),
+
+      flow_(grid_, std::move(bed), flow, terms),
       courant_(courant),
       state_(std::move(initial)),
       effects_(std::move(effects)) {
@@ -23,8 +23,8 @@ Simulation::Simulation(const Grid& grid, Bed bed, const FlowParameters& flow, Fl
     // is no wave.
     double highest = 0;
     for (std::size_t k = ghost_cells; k < ghost_cells + grid_.cells; ++k)
-        highest = std::max(highest, state_.depth[k] + bed_.level(k));
-    fastest_allowed_ = 10.0 * std::sqrt(2.0 * gravity * (highest + bed_.largest_depth())) +
+        highest = std::max(highest, state_.depth[k] + flow_.bed().level(k));
+    fastest_allowed_ = 10.0 * std::sqrt(2.0 * gravity * (highest + flow_.bed().largest_depth())) +
                        10.0 * flow_.survey(state_).fastest;
 }
 
@@ -79,7 +79,7 @@ Simulation::Point Simulation::cell_at(double share, std::size_t cell) const {
         h = std::max(h0 + share * (h1 - h0) + share * share * (h - h1), 0.0);
         q = q0 + share * (q1 - q0) + share * share * (q - q1);
     }
-    return {h + bed_.level(k), h > dry ? 2.0 * h * q / (h * h + std::max(h * h, film)) : 0.0};
+    return {h + bed().level(k), h > dry ? 2.0 * h * q / (h * h + std::max(h * h, film)) : 0.0};
 }
 
 void Simulation::sample(double t, Sample& sample) const {
@@ -130,7 +130,7 @@ double Simulation::energy() const {
     const double dry = flow_.parameters().dry_depth;
     double sum = 0;
     for (std::size_t k = ghost_cells; k < ghost_cells + grid_.cells; ++k) {
-        const double h = state_.depth[k], b = bed_.level(k), land = std::max(b, 0.0);
+        const double h = state_.depth[k], b = bed().level(k), land = std::max(b, 0.0);
         sum += 0.5 * gravity * ((h + b) * (h + b) - land * land);
         if (h <= dry) continue;
         const double u = state_.discharge[k] / h;

@@ -55,7 +55,7 @@ class Simulation {
     void restore(const common::DataFile& saved);
 
     const Grid& grid() const { return grid_; }
-    const Bed& bed() const { return bed_; }
+    const Bed& bed() const { return flow_.bed(); }
     const WaveState& state() const { return state_; }
     FlowStep& flow() { return flow_; }
     const FlowStep& flow() const { return flow_; }
@@ -68,7 +68,6 @@ class Simulation {
 
  private:
     Grid grid_;
-    Bed bed_;
     FlowStep flow_;
     double courant_;
     WaveState state_;

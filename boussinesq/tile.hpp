@@ -32,10 +32,11 @@ struct Tile {
     TileArray depth_flux, momentum_flux_minus, momentum_flux_plus;
     // near dry cells only: how each cell sees its own faces (depth and bed level; plus: its offshore face)
     TileArray depth_minus, depth_plus, level_minus, level_plus;
-    TileArray outflow_share;  ///< of a cell's outgoing flux that it can afford
+    TileArray is_first_order;  ///< 1 where a cell's own values stand for its face values, else 0
+    TileArray outflow_share;   ///< of a cell's outgoing flux that it can afford
     // dispersion: (g/alpha) eta_x, terms of Q, and the symmetric tridiagonal system (off_diagonal at faces)
-    TileArray elevation_slope, stretch, bed_stretch, curvature;
-    TileArray off_diagonal, diagonal, diagonal_minus, right_side;
+    TileArray elevation_slope, stretch, bed_stretch, curvature, force;
+    TileArray numerov, off_diagonal, diagonal, diagonal_minus, right_side;
     TileArray held;  ///< 1 where the acceleration D is prescribed (near dry or breaking cells), else 0
 
     std::size_t begin() const { return ghost_cells; }

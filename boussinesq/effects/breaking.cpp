@@ -1,0 +1,144 @@
+#include "boussinesq/effects/breaking.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace boussinesq {
+namespace {
+
+void note(BreakingRecord& record, double t, double x) {
+    if (record.first_time < 0.0) {
+        record.first_time = t;
+        record.first_place = record.most_offshore = x;
+    }
+    record.most_offshore = std::min(record.most_offshore, x);
+}
+
+}  // namespace
+
+EddyViscosity::EddyViscosity(const Grid& grid, const FlowParameters& flow, EddyViscosityConstants constants)
+    : grid_(grid),
+      dry_depth_(flow.dry_depth),
+      constants_(constants),
+      age_(grid.padded(), 0.0),
+      new_age_(grid.padded(), 0.0),
+      viscosity_(grid.padded(), 0.0),
+      ratio_(grid.padded(), 0.0),
+      value_(grid.padded(), 0.0) {}
+
+void EddyViscosity::find_fronts(const WaveState& state, double t, double step) {
+    const double* h = state.depth.data();
+    const double* q = state.discharge.data();
+    const double half = 0.5 / grid_.spacing;
+    const std::size_t first = ghost_cells + 1, last = ghost_cells + grid_.cells - 1;
+    any_ = false;
+    for (std::size_t k = first; k < last; ++k) {
+        const double rise = (q[k - 1] - q[k + 1]) * half;
+        viscosity_[k] = 0.0;
+        new_age_[k] = 0.0;
+        // The lowest threshold first: most cells stop here.
+        if (!(rise * rise > constants_.end * constants_.end * gravity * h[k]) || rise <= 0.0 ||
+            h[k] <= 10.0 * dry_depth_)
+            continue;
+        const double speed = std::sqrt(gravity * h[k]);
+        const double age = std::max(age_[k], std::max(age_[k - 1], age_[k + 1]));
+        const double share = std::min(age * speed / (constants_.transition * h[k]), 1.0);
+        const double threshold = (constants_.start + share * (constants_.end - constants_.start)) * speed;
+        if (rise <= threshold) continue;
+        new_age_[k] = age + step;
+        viscosity_[k] =
+            std::min(rise / threshold - 1.0, 1.0) * constants_.mixing * constants_.mixing * h[k] * rise;
+        if (age == 0.0) note(record_, t, grid_.centre(k - ghost_cells));
+        any_ = true;
+    }
+    std::swap(age_, new_age_);
+}
+
+void EddyViscosity::diffuse(WaveState& state, double step, std::size_t first, std::size_t last) {
+    // q - dt (nu q_x)_x = q* on cells first..last, viscosity zero beyond them.
+    double* q = state.discharge.data();
+    const double scale = step / (grid_.spacing * grid_.spacing);
+    const auto face = [&](std::size_t k) { return scale * 0.5 * (viscosity_[k - 1] + viscosity_[k]); };
+    double before = 0.0, ratio = 0.0, value = 0.0;
+    for (std::size_t k = first; k <= last; ++k) {
+        const double after = k < last ? face(k + 1) : 0.0;
+        const double pivot = 1.0 / (1.0 + before + after - before * ratio);
+        ratio = after * pivot;
+        value = (q[k] + before * value) * pivot;
+        ratio_[k] = ratio;
+        value_[k] = value;
+        before = after;
+    }
+    double above = 0.0;
+    for (std::size_t k = last + 1; k-- > first;) {
+        above = value_[k] + ratio_[k] * above;
+        q[k] = above;
+    }
+}
+
+void EddyViscosity::apply(WaveState& state, double t, double step) {
+    find_fronts(state, t, step);
+    if (!any_) return;
+    const std::size_t end = ghost_cells + grid_.cells - 1;
+    for (std::size_t k = ghost_cells + 1; k < end; ++k) {
+        if (viscosity_[k] == 0.0) continue;
+        std::size_t last = k;
+        while (last + 1 < end && viscosity_[last + 1] != 0.0) ++last;
+        diffuse(state, step, k - 1, last + 1);  // faces of the front's outer cells take part
+        k = last + 1;
+    }
+}
+
+std::vector<double> EddyViscosity::memory() const {
+    std::vector<double> values{record_.first_time, record_.first_place, record_.most_offshore};
+    values.insert(values.end(), age_.begin(), age_.end());
+    return values;
+}
+
+void EddyViscosity::recall(const std::vector<double>& values) {
+    record_ = {.first_time = values.at(0), .first_place = values.at(1), .most_offshore = values.at(2)};
+    age_.assign(values.begin() + 3, values.end());
+}
+
+HydrostaticBores::HydrostaticBores(const Grid& grid, const FlowParameters& flow)
+    : grid_(grid), dry_depth_(flow.dry_depth), bores_(grid.padded(), 0), fronts_(grid.padded(), 0) {}
+
+void HydrostaticBores::apply(WaveState& state, double t, double) {
+    const double* h = state.depth.data();
+    const double* q = state.discharge.data();
+    const double half = 0.5 / grid_.spacing;
+    std::fill(fronts_.begin(), fronts_.end(), static_cast<unsigned char>(0));
+    const std::size_t first = ghost_cells + 1, last = ghost_cells + grid_.cells - 1;
+    for (std::size_t k = first; k < last; ++k) {
+        const double rise = (q[k - 1] - q[k + 1]) * half;
+        if (rise <= 0.0 || h[k] <= 10.0 * dry_depth_) continue;
+        const double speed = std::sqrt(gravity * h[k]);
+        const bool is_old = bores_[k - 1] != 0 || bores_[k] != 0 || bores_[k + 1] != 0;
+        if (rise > (is_old ? 0.3 : 0.6) * speed) {
+            fronts_[k] = 1;
+            if (!is_old) note(record_, t, grid_.centre(k - ghost_cells));
+        }
+    }
+    // The front's whole width: a depth to both sides.
+    std::fill(bores_.begin(), bores_.end(), static_cast<unsigned char>(0));
+    for (std::size_t k = first; k < last; ++k) {
+        if (fronts_[k] == 0) continue;
+        const auto width = static_cast<std::size_t>(std::ceil(h[k] / grid_.spacing));
+        const std::size_t from = k > first + width ? k - width : first, to = std::min(k + width, last - 1);
+        std::fill(bores_.begin() + static_cast<std::ptrdiff_t>(from),
+                  bores_.begin() + static_cast<std::ptrdiff_t>(to) + 1, static_cast<unsigned char>(1));
+    }
+}
+
+std::vector<double> HydrostaticBores::memory() const {
+    std::vector<double> values{record_.first_time, record_.first_place, record_.most_offshore};
+    values.insert(values.end(), bores_.begin(), bores_.end());
+    return values;
+}
+
+void HydrostaticBores::recall(const std::vector<double>& values) {
+    record_ = {.first_time = values.at(0), .first_place = values.at(1), .most_offshore = values.at(2)};
+    for (std::size_t k = 0; k < bores_.size(); ++k) bores_[k] = values.at(3 + k) != 0.0 ? 1 : 0;
+}
+
+}  // namespace boussinesq

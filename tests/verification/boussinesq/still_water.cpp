@@ -1,0 +1,66 @@
+// Lakes at rest stay at rest, whatever lies under and in them.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/support/boussinesq_flume.hpp"
+
+namespace {
+
+using namespace boussinesq_test;
+
+/// Largest speed after `end` seconds of a lake with its surface at `level`.
+double speed_of_rest(const Polyline& bed, double spacing, double level, bool dispersion, double end = 20.0) {
+    Flume flume(bed, spacing, scaled(1.0), {.dispersion = dispersion, .shoreline = true});
+    flume.start([&](double) { return level; }, [](double) { return 0.0; });
+    const double water = flume.water();
+    flume.run_until(end);
+    EXPECT_NEAR(flume.water() / water, 1.0, 1e-13);  // rounding of a sum over cells
+    EXPECT_EQ(flume.flow.water_made(), 0.0);         // nothing came out below zero
+    return flume.largest_speed();
+}
+
+Polyline rough_bed(unsigned seed, double roughness) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> level(-1.0 - roughness, -1.0 + roughness);
+    Polyline bed;
+    for (int i = 0; i <= 100; ++i) bed.push_back({0.2 * i, level(random)});
+    return bed;
+}
+
+// sqrt(g d) = 3 m/s times 1e-16 times some hundreds of steps; the prototype reached 5e-15.
+constexpr double round_off = 1e-12;
+
+TEST(StillWater, OverARoughBed) {
+    for (const bool dispersion : {false, true}) {
+        const double speed = speed_of_rest(rough_bed(1, 0.5), 0.07, 0.0, dispersion);
+        std::printf("    rough, dispersion %d: %.1e m/s\n", dispersion, speed);
+        EXPECT_LT(speed, round_off);
+    }
+}
+
+TEST(StillWater, WithIslandsPondsAndDryEnds) {
+    for (const bool dispersion : {false, true})
+        for (unsigned seed = 1; seed <= 5; ++seed) {
+            const double speed = speed_of_rest(rough_bed(seed, 1.5), 0.07, 0.0, dispersion);
+            if (seed == 1) std::printf("    islands, dispersion %d: %.1e m/s\n", dispersion, speed);
+            EXPECT_LT(speed, round_off) << "seed " << seed;
+        }
+}
+
+TEST(StillWater, WithVerticalStepsAndNeedles) {
+    const Polyline bed{{0, -1},      {4, -1}, {4.0001, -0.2}, {6, -0.2}, {6.0001, 0.5}, {6.2, 0.5},
+                       {6.2001, -1}, {9, -1}, {9.05, -0.001}, {9.1, -1}, {12, 0.4}};
+    for (const bool dispersion : {false, true}) {
+        const double speed = speed_of_rest(bed, 0.05, 0.0, dispersion);
+        std::printf("    steps, dispersion %d: %.1e m/s\n", dispersion, speed);
+        EXPECT_LT(speed, round_off);
+    }
+}
+
+TEST(StillWater, AtAnyLevel) {
+    for (const double level : {-0.9, -0.37, 0.21, 0.6})
+        EXPECT_LT(speed_of_rest(rough_bed(7, 1.0), 0.05, level, true, 10.0), round_off) << level;
+}
+
+}  // namespace
