@@ -17,6 +17,7 @@ extern "C" void raise_interrupt(int) {
 }  // namespace
 
 int run_guarded(const std::string& program, const std::function<int()>& body) {
+    watch_for_interrupts();
     try {
         return body();
     } catch (const InputError& error) {

@@ -26,7 +26,8 @@ struct Interrupted : std::exception {
     const char* what() const noexcept override { return "interrupted"; }
 };
 
-/// Runs a program's body and turns its errors into one message on stderr and an exit status.
+/// Watches for interrupts, runs a program's body, and turns its errors into one message on stderr and an exit
+/// status.
 int run_guarded(const std::string& program, const std::function<int()>& body);
 
 /// Installs handlers for SIGINT and SIGTERM that only raise a flag.

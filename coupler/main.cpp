@@ -6,7 +6,6 @@
 
 int main(int argc, char** argv) {
     return common::run_guarded("coupler", [&] {
-        common::watch_for_interrupts();
         const coupler::Command command = coupler::read_command(argc, argv);
         switch (command.verb) {
             case coupler::Command::Verb::status:
