@@ -95,14 +95,15 @@ std::array<double, 2> force_on(const Particles& particles, double spacing, std::
     return force;
 }
 
-double volume_by_surface(const Particles& particles, const Solid& solid, double spacing, double x0, double x1) {
+double volume_by_surface(const Particles& particles, const Solid& solid, double spacing, double x0, double x1,
+                         double bottom) {
     const int columns = std::max(1, static_cast<int>((x1 - x0) / (2 * spacing)));
     const double width = (x1 - x0) / columns;
     double volume = 0;
     for (int c = 0; c < columns; ++c) {
         const double x = x0 + (c + 0.5) * width;
         const double top = surface_elevation(particles, solid, spacing, x);
-        for (const auto& [low, high] : solid.free_intervals(x, -1e3, top)) volume += (high - low) * width;
+        for (const auto& [low, high] : solid.free_intervals(x, bottom, top)) volume += (high - low) * width;
     }
     return volume;
 }

@@ -23,7 +23,9 @@ std::array<double, 2> velocity_at(const Particles& particles, double spacing, do
 /// Force of the water on a body: sum over its wall particles of -p n l0, N per m of width.
 std::array<double, 2> force_on(const Particles& particles, double spacing, std::int32_t body);
 
-/// Free surface area above every x: volume of water by its surface profile, m^2 per m of width, between x0 and x1.
-double volume_by_surface(const Particles& particles, const Solid& solid, double spacing, double x0, double x1);
+/// Volume of water between x0 and x1 by its surface profile and what the solid leaves above `bottom` (m), m^2 per m of
+/// width.
+double volume_by_surface(const Particles& particles, const Solid& solid, double spacing, double x0, double x1,
+                         double bottom);
 
 }  // namespace cmps

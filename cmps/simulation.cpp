@@ -28,6 +28,14 @@ double rear_of_structure(const Scene& scene) {
     return rear;
 }
 
+/// Lowest level of the bed or the tank's floor, m.
+double lowest_bottom(const Scene& scene) {
+    if (scene.tank) return (*scene.tank)[2];
+    double lowest = 0;
+    for (const Point& p : scene.bed) lowest = std::min(lowest, p[1]);
+    return lowest;
+}
+
 /// Four columns of wall that start on the bed, their face at x.
 void add_moving_wall(const Scene& scene, std::vector<BoundaryParticle>& placed) {
     const double l0 = scene.settings.spacing;
@@ -59,12 +67,7 @@ Particles initial_particles(const Scene& scene, const Solid& solid, WaveField* w
         fill_polygons(solid, l0, scene.water, particles);
         return particles;
     }
-    double bottom = 0;
-    if (scene.tank)
-        bottom = (*scene.tank)[2];
-    else
-        for (const Point& p : scene.bed) bottom = std::min(bottom, p[1]);
-    fill_water(solid, l0, scene.offshore, end_of_water(scene, solid), bottom - l0,
+    fill_water(solid, l0, scene.offshore, end_of_water(scene, solid), lowest_bottom(scene) - l0,
                [&](double x) { return waves ? waves->surface_elevation(x) : 0.0; }, particles);
     if (waves)
         for (std::size_t i = particles.first_fluid(); i < particles.size(); ++i)
@@ -91,7 +94,7 @@ Simulation::Simulation(const Scene& scene, WaveField* waves, double start)
         if (gauge.x >= scene_.offshore && gauge.x <= x1) gauges_.push_back(gauge);
     gauge_series_.resize(gauges_.size());
     if (scene_.water.empty())
-        initial_volume_ = volume_by_surface(field_->particles, solid_, scene_.settings.spacing, scene_.offshore, end_of_water(scene_, solid_));
+        initial_volume_ = volume_by_surface(field_->particles, solid_, scene_.settings.spacing, scene_.offshore, end_of_water(scene_, solid_), lowest_bottom(scene_));
 }
 
 void Simulation::compose_effects(double) {
@@ -264,7 +267,7 @@ void Simulation::record_gauge(const common::Gauge& gauge, Series& series) {
 void Simulation::record_invariants() {
     if (initial_volume_ <= 0) return;
     const double l0 = scene_.settings.spacing, from = wall_ ? wall_->position() : scene_.offshore;
-    const double volume = volume_by_surface(field_->particles, solid_, l0, from, end_of_water(scene_, solid_));
+    const double volume = volume_by_surface(field_->particles, solid_, l0, from, end_of_water(scene_, solid_), lowest_bottom(scene_));
     const double expected = initial_volume_ * static_cast<double>(field_->particles.fluid) / static_cast<double>(initial_fluid_);
     volume_drift_ = volume / expected - 1.0;
     largest_volume_drift_ = std::max(largest_volume_drift_, std::abs(volume_drift_));
