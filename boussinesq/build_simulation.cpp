@@ -89,10 +89,6 @@ std::vector<std::unique_ptr<StepEffect>> effects_of(const Scene& scene, const Be
     if (scene.has_friction)
         effects.push_back(std::make_unique<Friction>(grid, scene.friction, scene.friction_is_manning,
                                                      scene.flow.dry_depth));
-    if (scene.has_breaking && scene.breaks_as_bores)
-        effects.push_back(std::make_unique<HydrostaticBores>(grid, scene.flow));
-    else if (scene.has_breaking)
-        effects.push_back(std::make_unique<EddyViscosity>(grid, scene.flow, scene.breaking));
     // Fast against the wave at the flume's end, slow where the zone begins (rates in README).
     const double rate = scene.waves.period > 0 ? 1.3 * two_pi / scene.waves.period
                                                : 5.0 * std::sqrt(gravity * scene.waves.depth) /
@@ -117,14 +113,26 @@ Simulation build_simulation(const Scene& scene) {
     Bed bed(scene.grid, scene.bed);
     WaveState state = initial_state(scene, bed);
     auto effects = effects_of(scene, bed);
-    const unsigned char* bores = nullptr;
-    for (const auto& effect : effects)
-        if (const auto* breaking = dynamic_cast<const HydrostaticBores*>(effect.get()))
-            bores = breaking->bores();
     Simulation simulation(scene.grid, std::move(bed), scene.flow, scene.terms, scene.courant,
                           std::move(state), std::move(effects));
-    simulation.flow().set_bores(bores);
+    if (scene.has_breaking) add_breaking(simulation, scene);
     return simulation;
+}
+
+void add_breaking(Simulation& simulation, const Scene& scene) {
+    if (scene.breaks_as_bores) {
+        auto bores = std::make_unique<HydrostaticBores>(scene.grid, scene.flow);
+        simulation.flow().set_bores(bores->bores());
+        simulation.add_effect(std::move(bores));
+    } else {
+        simulation.add_effect(std::make_unique<EddyViscosity>(scene.grid, scene.flow, scene.breaking));
+    }
+}
+
+double shoreline_margin(const Scene& scene) {
+    double least = scene.waves.depth;
+    for (const auto& point : scene.bed) least = std::min(least, -point[1]);
+    return std::max(0.1 * least, 100.0 * scene.flow.dry_depth);
 }
 
 }  // namespace boussinesq

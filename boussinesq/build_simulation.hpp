@@ -9,4 +9,10 @@ namespace boussinesq {
 /// Throws InputError where the equations carry no such wave.
 Simulation build_simulation(const Scene& scene);
 
+/// Switches breaking on in a simulation that goes without.
+void add_breaking(Simulation& simulation, const Scene& scene);
+
+/// Depth below which a flume without moving shoreline is no longer safely wet, m.
+double shoreline_margin(const Scene& scene);
+
 }  // namespace boussinesq

@@ -60,8 +60,10 @@ Survey FlowStep::survey(const WaveState& state) const {
 
 void FlowStep::advance(WaveState& state, double step) {
     std::swap(before_, state);
+    step_share_ = 1.0 / 6.0;
     stage(before_, 0.0, before_, 1.0, step, first_);
     stage(before_, 0.75, first_, 0.25, step, second_);
+    step_share_ = 2.0 / 3.0;
     stage(before_, 1.0 / 3.0, second_, 2.0 / 3.0, step, state);
 }
 
@@ -131,6 +133,9 @@ void FlowStep::sweep_tile(Tile& tile, const WaveState& start, double start_share
             tile.off_diagonal[last + 1] = 0.0;
         }
     }
+    if (tile.first == 0) water_through_ends_ += step_share_ * step * tile.depth_flux[tile.begin()];
+    if (tile.first + tile.count == grid_.cells)
+        water_through_ends_ -= step_share_ * step * tile.depth_flux[tile.end()];
     const double inverse = 1.0 / flow_.spacing;
     const std::size_t first = tile.first;
     const double* h_start = start.depth.data() + first;

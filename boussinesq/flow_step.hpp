@@ -40,7 +40,11 @@ class FlowStep {
 
     /// Water that rounding made where the depth came out below zero, m2 in total since the start.
     double water_made() const { return water_made_; }
-    void set_water_made(double area) { water_made_ = area; }
+    /// Water that came in through open ends, m2 in total since the start.
+    double water_through_ends() const { return water_through_ends_; }
+    void set_water(double made, double through_ends) {
+        water_made_ = made, water_through_ends_ = through_ends;
+    }
 
     /// Cells (padded, non-zero) whose flow is hydrostatic because they break; null: none. Kept by the caller.
     void set_bores(const unsigned char* bores) { bores_ = bores; }
@@ -69,7 +73,8 @@ class FlowStep {
     DispersionSystem system_;
     std::unique_ptr<Tile> left_tile_, right_tile_;
     const unsigned char* bores_ = nullptr;
-    double water_made_ = 0;
+    double water_made_ = 0, water_through_ends_ = 0;
+    double step_share_ = 0;  ///< of the stage in hand in the whole step: 1/6, 1/6, 2/3
 };
 
 }  // namespace boussinesq

@@ -1,6 +1,7 @@
 /// What gauges see: surface elevation and velocity at points, each at its own interval.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -13,9 +14,14 @@ namespace boussinesq {
 /// One gauge's whole record.
 struct GaugeRecord {
     std::string name;
-    double x;                                       ///< m
-    double interval;                                ///< s
-    std::vector<double> time, elevation, velocity;  ///< s, m, m/s
+    double x;         ///< m
+    double interval;  ///< s
+    std::array<double, 2>
+        array;  ///< x of two more points that tell reflected waves apart, m; equal to x: none
+    std::vector<double> time, elevation, velocity;          ///< s, m, m/s
+    std::vector<double> second_elevation, third_elevation;  ///< at the points of `array`, m
+
+    bool has_array() const { return array[0] != x; }
 };
 
 /// Writes the samples of one window, /gauges/<name>/..., from the records.

@@ -2,6 +2,8 @@
 #include <gsl/gsl_errno.h>
 
 #include "boussinesq/build_simulation.hpp"
+#include "boussinesq/check.hpp"
+#include "boussinesq/effect_watch.hpp"
 #include "boussinesq/report.hpp"
 #include "boussinesq/scene.hpp"
 #include "boussinesq/window_output.hpp"
@@ -9,51 +11,66 @@
 #include "common/output_folder.hpp"
 #include "common/parallel.hpp"
 #include "common/progress.hpp"
-#include "common/run_record.hpp"
 #include "common/stage_command.hpp"
 #include "common/window_clock.hpp"
 
 namespace {
 
-int run(const common::StageCommand& command, const common::SceneFile& file, const boussinesq::Scene& scene) {
+using namespace boussinesq;
+
+int run(const common::StageCommand& command, const common::SceneFile& file, const Scene& scene) {
+    Simulation simulation = build_simulation(scene);
     common::OutputFolder folder(command.out,
                                 {.stage = "boussinesq", .scene_digest = file.digest(), .input_digest = ""},
                                 command.resume);
     if (folder.start() == common::OutputFolder::Start::nothing_to_do) return common::exit_done;
-    boussinesq::Simulation simulation = boussinesq::build_simulation(scene);
-    common::WindowClock clock(0.0, scene.time.end, scene.time.window);
-    boussinesq::WindowOutput output(simulation, clock, scene.output_interval, boussinesq::gauges_of(scene));
-    boussinesq::Report report(command.out, file, scene, simulation);
-    const bool goes_on = folder.start() == common::OutputFolder::Start::go_on;
-    if (goes_on) {
-        simulation.restore(folder.state());
-        report.restore(folder.state());
-        boussinesq::read_gauges(folder.path(), folder.next_window(), output.gauges());
-    }
-    // The state to go on from is the one before the step that crossed the end of the last window.
-    common::DataFile before_crossing = report.save(simulation.save());
-    if (goes_on) {
-        simulation.next_step();
+    const common::WindowClock clock(0.0, scene.time.end, scene.time.window);
+    WindowOutput output(simulation, clock, scene.output_interval, gauges_of(scene));
+    Report report(command.out, file, scene, simulation);
+    EffectWatch watch(scene);
+    common::Progress progress("boussinesq", 0.0, scene.time.end, command.quiet);
+    const auto save = [&] {
+        common::DataFile state = simulation.save();
+        report.save(state);
+        watch.save(state);
+        return state;
+    };
+    const auto step = [&] {
         simulation.advance();
         report.look();
+        if (const auto change = watch.look(simulation)) {
+            report.note(*change);
+            progress.say(*change);
+        }
+    };
+
+    const bool goes_on = folder.start() == common::OutputFolder::Start::go_on;
+    if (goes_on) {
+        watch.restore(simulation, folder.state());
+        simulation.restore(folder.state());
+        report.restore(folder.state());
+        read_gauges(folder.path(), folder.next_window(), output.gauges());
     }
-    folder.write_geometry(boussinesq::geometry_of(scene, simulation));
-    common::Progress progress("boussinesq", 0.0, scene.time.end, command.quiet);
+    folder.write_geometry(geometry_of(scene, simulation));
     try {
+        // The state to go on from is the one before the step that crossed the end of the last window.
+        common::DataFile before_crossing = save();
+        if (goes_on) {
+            simulation.next_step();
+            step();
+        }
         for (std::int64_t window = folder.next_window(); window < clock.window_count(); ++window) {
             output.begin(window);
             output.collect();
             while (!output.is_complete()) {
                 common::check_for_interrupt();
-                if (simulation.time() + simulation.next_step() >= output.end())
-                    before_crossing = report.save(simulation.save());
-                simulation.advance();
-                report.look();
+                if (simulation.time() + simulation.next_step() >= output.end()) before_crossing = save();
+                step();
                 output.collect();
                 progress.update(simulation.time());
             }
             folder.publish(output.take(), before_crossing);
-            report.window_done(window + 1, output.gauges());
+            report.window_done(window + 1);
         }
     } catch (const common::Interrupted&) {
         report.end("interrupted", "interrupted", output.gauges());
@@ -80,9 +97,9 @@ int main(int argc, char** argv) {
                                         .upstream_option = ""});
         common::use_threads(command.threads);
         const auto file = common::SceneFile::read(command.scene, command.overrides);
-        const boussinesq::Scene scene = boussinesq::read_scene(file);
+        const Scene scene = read_scene(file);
         if (command.verb == common::StageCommand::Verb::check) {
-            boussinesq::print_check(file, scene, command.all);
+            print_check(file, scene, command.all);
             return static_cast<int>(common::exit_done);
         }
         return run(command, file, scene);

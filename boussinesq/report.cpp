@@ -2,23 +2,70 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
+#include "boussinesq/effects/breaking.hpp"
 #include "boussinesq/effects/relaxation_zone.hpp"
+#include "boussinesq/wave_statistics.hpp"
 
 namespace boussinesq {
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+/// Waves at the end of a run that the envelope and the statistics of regular waves cover.
+constexpr double last_waves = 10.0;
+
+/// First time at which the envelope is taken, s: the last waves, or all of a run without a period.
+double envelope_begin(const Scene& scene) {
+    return scene.waves.period > 0 ? std::max(scene.time.end - last_waves * scene.waves.period, 0.0) : 0.0;
+}
+
+/// When the waves at x are in full swing: travel at group speed, then the ramp.
+double settled_time(const Scene& scene, double x) {
+    if (scene.waves.period <= 0) return 0.0;
+    const double w = two_pi / scene.waves.period;
+    double time = scene.waves.ramp;
+    constexpr int pieces = 200;
+    const double begin = scene.bed.front()[0], piece = (x - begin) / pieces;
+    for (int i = 0; i < pieces; ++i) {
+        const double depth = std::max(scene.still_depth(begin + (i + 0.5) * piece), 0.02 * scene.waves.depth);
+        time += piece / airy_group_speed(airy_wave_number(w, depth), depth);
+    }
+    return time + 2.0 * scene.waves.period;
+}
+
+}  // namespace
 
 std::vector<GaugeRecord> gauges_of(const Scene& scene) {
     std::vector<GaugeRecord> records;
-    for (const auto& gauge : scene.gauges)
-        if (gauge.kind == common::Gauge::Kind::surface)
-            records.push_back({.name = gauge.name,
-                               .x = gauge.x,
-                               .interval = gauge.interval,
-                               .time = {},
-                               .elevation = {},
-                               .velocity = {}});
+    for (const auto& gauge : scene.gauges) {
+        if (gauge.kind != common::Gauge::Kind::surface) continue;
+        GaugeRecord record{.name = gauge.name,
+                           .x = gauge.x,
+                           .interval = gauge.interval,
+                           .array = {gauge.x, gauge.x},
+                           .time = {},
+                           .elevation = {},
+                           .velocity = {},
+                           .second_elevation = {},
+                           .third_elevation = {}};
+        const double depth = scene.still_depth(gauge.x);
+        if (scene.waves.period > 0 && depth > 0) {
+            const double length = two_pi / airy_wave_number(two_pi / scene.waves.period, depth);
+            for (const double way : {1.0, -1.0}) {
+                const double second = gauge.x + way * 0.1 * length, third = gauge.x + way * 0.25 * length;
+                const bool inside = std::min(third, gauge.x) > scene.bed.front()[0] &&
+                                    std::max(third, gauge.x) < scene.bed.back()[0];
+                const bool level = std::abs(scene.still_depth(third) - depth) < 0.05 * depth &&
+                                   std::abs(scene.still_depth(second) - depth) < 0.05 * depth;
+                if (inside && level && !record.has_array()) record.array = {second, third};
+            }
+        }
+        records.push_back(std::move(record));
+    }
     return records;
 }
 
@@ -32,80 +79,168 @@ common::DataFile geometry_of(const Scene& scene, const Simulation& simulation) {
     std::vector<double> polyline;
     for (const auto& point : scene.bed) polyline.insert(polyline.end(), point.begin(), point.end());
     common::DataFile file;
-    file.datasets["/x"] = common::real64("m", {grid.cells}, x);
-    file.datasets["/bed_level"] = common::real64("m", {grid.cells}, bed);
-    file.datasets["/bed_polyline"] = common::real64("m", {scene.bed.size(), 2}, polyline);
+    file.datasets["/x"] = common::real64("m", {grid.cells}, std::move(x));
+    file.datasets["/bed_level"] = common::real64("m", {grid.cells}, std::move(bed));
+    file.datasets["/bed_polyline"] = common::real64("m", {scene.bed.size(), 2}, std::move(polyline));
     return file;
-}
-
-void print_check(const common::SceneFile& file, const Scene& scene, bool all) {
-    fmt::print("effects\n");
-    for (const auto& effect : scene.effects)
-        fmt::print("  {:<12} {:<4} {}\n", effect.name, effect.is_on ? "on" : "off", effect.reason);
-    fmt::print("forecast\n  cells        {} of {:.4g} m\n", scene.grid.cells, scene.grid.spacing);
-    if (all) fmt::print("\n{}", file.reference());
 }
 
 Report::Report(const std::filesystem::path& folder, const common::SceneFile& file, const Scene& scene,
                const Simulation& simulation)
     : scene_(scene),
       simulation_(simulation),
+      folder_(folder),
       record_(folder, "boussinesq"),
-      water_at_start_(simulation.water()),
-      energy_at_start_(simulation.energy()) {
+      envelope_(scene.grid, envelope_begin(scene)),
+      waterline_(scene.grid, 2e-3 * scene.waves.depth),
+      water_at_start_(simulation.water()) {
+    std::filesystem::remove(folder / "envelope.h5");
     record_.describe_scene(file);
     record_.set_digests(file.digest(), "");
     record_.set_effects(scene.effects);
+    if (scene.waves.length > 0 && scene.waves.period > 0) {
+        record_.set_figure("waves.length", scene.waves.length);
+        record_.set_figure("waves.ursell",
+                           ursell_number(scene.waves.height, scene.waves.length, scene.waves.depth));
+    }
     record_.write_running();
 }
 
-void Report::look() {}
+void Report::look() {
+    envelope_.look(simulation_);
+    if (simulation_.flow().terms().shoreline) waterline_.look(simulation_);
+}
 
-void Report::fill(const std::vector<GaugeRecord>&) {
+void Report::note(const std::string& message) {
+    record_.set_note(fmt::format("effect_watch.{}", notes_++), message);
+}
+
+void Report::fill_figures() {
     const double cells = static_cast<double>(simulation_.grid().cells);
-    const double steps = static_cast<double>(simulation_.steps());
+    const double here = static_cast<double>(simulation_.steps() - first_step_);
     record_.set_figure("cells", cells);
     record_.set_figure("spacing", simulation_.grid().spacing);
-    record_.set_figure("steps", steps);
-    const double here = static_cast<double>(simulation_.steps() - first_step_);
+    record_.set_figure("steps", static_cast<double>(simulation_.steps()));
     double seconds = simulation_.times().flow;
     for (const double effect : simulation_.times().effects) seconds += effect;
-    if (here > 0) record_.set_figure("nanoseconds_per_cell_step", 1e9 * seconds / (cells * here));
+    if (here > 0) {
+        record_.set_figure("nanoseconds_per_cell_step", 1e9 * seconds / (cells * here));
+        record_.set_figure("compute_seconds", seconds);
+    }
+    for (const auto& effect : simulation_.effects()) {
+        const BreakingRecord* breaking = nullptr;
+        if (const auto* viscosity = dynamic_cast<const EddyViscosity*>(effect.get()))
+            breaking = &viscosity->record();
+        if (const auto* bores = dynamic_cast<const HydrostaticBores*>(effect.get()))
+            breaking = &bores->record();
+        if (breaking == nullptr || breaking->first_time < 0) continue;
+        record_.set_figure("breaking.first_time", breaking->first_time);
+        record_.set_figure("breaking.first_place", breaking->first_place);
+        record_.set_figure("breaking.most_offshore", breaking->most_offshore);
+    }
+    if (waterline_.has_beach()) {
+        record_.set_figure("run_up.level", waterline_.run_up);
+        record_.set_figure("run_up.time", waterline_.run_up_time);
+        record_.set_figure("run_up.x", waterline_.farthest);
+        record_.set_figure("run_down.level", waterline_.run_down);
+        record_.set_figure("run_down.time", waterline_.run_down_time);
+    }
+}
+
+void Report::fill_invariants() {
     double added = 0;
     for (const auto& effect : simulation_.effects())
         if (const auto* zone = dynamic_cast<const GenerationZone*>(effect.get()))
             added += zone->water_added();
-    const double water = simulation_.water();
-    record_.set_figure("water_added_by_generation", added);
-    if (scene_.offshore != EndKind::open && scene_.shoreward != EndKind::open)
-        record_.set_invariant(
-            {.name = "water balance",
-             .value = (water - water_at_start_ - added - simulation_.flow().water_made()) / water_at_start_,
-             .unit = "-",
-             .bound = 1e-10});
-    record_.set_invariant({.name = "water made by rounding",
-                           .value = simulation_.flow().water_made() / water_at_start_,
+    const double made = simulation_.flow().water_made(),
+                 through_ends = simulation_.flow().water_through_ends();
+    record_.set_figure("water.added_by_generation", added);
+    record_.set_figure("water.through_ends", through_ends);
+    // Sums of 1e3 to 1e6 cells over 1e4 steps round at 1e-12; a lost flux would show at 1e-6.
+    record_.set_invariant(
+        {.name = "water balance",
+         .value = (simulation_.water() - water_at_start_ - added - made - through_ends) / water_at_start_,
+         .unit = "-",
+         .bound = 1e-9});
+    record_.set_invariant(
+        {.name = "water made by rounding", .value = made / water_at_start_, .unit = "-", .bound = 1e-9});
+    record_.set_invariant({.name = "largest Courant number",
+                           .value = simulation_.largest_courant(),
                            .unit = "-",
-                           .bound = 1e-9});
+                           .bound = 1.0 + 1e-9});
     record_.set_invariant({.name = "energy",
                            .value = simulation_.energy(),
                            .unit = "m4/s2",
                            .bound = std::numeric_limits<double>::infinity()});
-    record_.set_invariant({.name = "largest Courant number",
-                           .value = simulation_.largest_courant(),
-                           .unit = "-",
-                           .bound = 1.0 + 1e-12});
 }
 
-void Report::window_done(std::int64_t windows, const std::vector<GaugeRecord>& gauges) {
+void Report::fill_statistics(const std::vector<GaugeRecord>& gauges) {
+    const LinearDispersion dispersion{.alpha = scene_.flow.alpha, .is_dispersive = scene_.terms.dispersion};
+    const double period = scene_.waves.period;
+    for (const GaugeRecord& gauge : gauges) {
+        if (gauge.time.size() < 8) continue;
+        double begin = settled_time(scene_, gauge.x);
+        double end = gauge.time.back();
+        if (scene_.waves.kind == WaveKind::regular && end > begin) {
+            // Whole periods, so that mean and spectrum are clean.
+            const double whole = std::min(std::floor((end - begin) / period), last_waves);
+            begin = end - std::max(whole, 1.0) * period;
+        }
+        if (end - begin < 2.0 * period || begin < gauge.time.front()) begin = gauge.time.front();
+        const auto from = static_cast<std::size_t>(
+            std::lower_bound(gauge.time.begin(), gauge.time.end(), begin - 1e-9) - gauge.time.begin());
+        const std::size_t count = gauge.time.size() - from;
+        const auto part = [&](const std::vector<double>& values) {
+            return std::span<const double>(values).subspan(from, count);
+        };
+        const WaveStatistics statistics = wave_statistics(part(gauge.time), part(gauge.elevation));
+        const std::string key = fmt::format("gauges.{}.", gauge.name);
+        record_.set_figure(key + "begin", gauge.time[from]);
+        record_.set_figure(key + "waves", static_cast<double>(statistics.waves));
+        record_.set_figure(key + "significant_height", statistics.significant_height);
+        record_.set_figure(key + "largest_height", statistics.largest_height);
+        record_.set_figure(key + "mean_height", statistics.mean_height);
+        record_.set_figure(key + "significant_period", statistics.significant_period);
+        record_.set_figure(key + "mean_period", statistics.mean_period);
+        record_.set_figure(key + "set_up", statistics.mean_level);
+        record_.set_figure(key + "spectral_height", 4.0 * statistics.root_mean_square);
+        record_.set_figure(key + "highest", statistics.highest);
+        record_.set_figure(key + "lowest", statistics.lowest);
+        if (!gauge.has_array() || statistics.waves < 2) continue;
+        const double length = gauge.time.back() - gauge.time[from], step = two_pi / length;
+        std::vector<double> frequencies;
+        if (scene_.waves.kind == WaveKind::regular) {
+            frequencies = {two_pi / period};
+        } else {
+            const double low = 0.5 * two_pi / period, high = 2.0 * two_pi / period;
+            const double stride =
+                std::max(1.0, std::round((high - low) / step / 128.0)) * step;  // at most 128 lines
+            for (double w = std::ceil(low / step) * step; w <= high; w += stride) frequencies.push_back(w);
+        }
+        const Reflection reflection = reflection_of(
+            part(gauge.time),
+            {part(gauge.elevation), part(gauge.second_elevation), part(gauge.third_elevation)},
+            {gauge.x, gauge.array[0], gauge.array[1]}, scene_.still_depth(gauge.x), dispersion, frequencies);
+        record_.set_figure(key + "incident_height", reflection.incident_height);
+        record_.set_figure(key + "reflected_height", reflection.reflected_height);
+        record_.set_figure(key + "reflection_coefficient", reflection.coefficient);
+    }
+}
+
+void Report::window_done(std::int64_t windows) {
     record_.set_windows(windows);
-    fill(gauges);
+    fill_figures();
+    fill_invariants();
     record_.write_running();
 }
 
 void Report::end(const std::string& status, const std::string& message,
                  const std::vector<GaugeRecord>& gauges) {
-    fill(gauges);
+    fill_figures();
+    if (status != "failed") fill_invariants();
+    fill_statistics(gauges);
+    if (!envelope_.is_empty() && status == "done")
+        common::write_data_file(folder_ / "envelope.h5", envelope_.file(simulation_));
     record_.add_phase_time("flow", simulation_.times().flow);
     for (std::size_t e = 0; e < simulation_.effects().size(); ++e)
         record_.add_phase_time(simulation_.effects()[e]->name(), simulation_.times().effects[e]);
@@ -116,14 +251,17 @@ std::string Report::summary() const {
     return fmt::format("{} cells, {} steps", simulation_.grid().cells, simulation_.steps());
 }
 
-common::DataFile Report::save(common::DataFile state) const {
+void Report::save(common::DataFile& state) const {
     state.attributes["water_at_start"] = water_at_start_;
-    return state;
+    envelope_.save(state);
+    waterline_.save(state);
 }
 
 void Report::restore(const common::DataFile& state) {
     water_at_start_ = state.number("water_at_start");
     first_step_ = simulation_.steps();
+    envelope_.restore(state);
+    waterline_.restore(state);
 }
 
 }  // namespace boussinesq

@@ -1,11 +1,11 @@
-/// What a run says about itself: run.json, invariants, wave statistics, run-up, the envelope, and `check`.
+/// What a run says about itself: run.json, invariants, wave statistics, run-up and the envelope.
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "boussinesq/envelope.hpp"
 #include "boussinesq/gauge_record.hpp"
 #include "boussinesq/scene.hpp"
 #include "boussinesq/simulation.hpp"
@@ -14,14 +14,12 @@
 
 namespace boussinesq {
 
-/// Gauges of the scene that this stage records.
+/// Gauges of the scene that this stage records; over a level bed each with two more points a tenth and a
+/// quarter of a wave length on, so that reflected waves can be told apart.
 std::vector<GaugeRecord> gauges_of(const Scene& scene);
 
 /// geometry.h5: the bed.
 common::DataFile geometry_of(const Scene& scene, const Simulation& simulation);
-
-/// Prints effects with reasons and the forecast; with `all` also the scene with every default filled in.
-void print_check(const common::SceneFile& file, const Scene& scene, bool all);
 
 class Report {
  public:
@@ -30,22 +28,30 @@ class Report {
 
     /// After every step.
     void look();
-    void window_done(std::int64_t windows, const std::vector<GaugeRecord>& gauges);
+    /// Something the user should know; also into run.json.
+    void note(const std::string& message);
+    void window_done(std::int64_t windows);
     void end(const std::string& status, const std::string& message, const std::vector<GaugeRecord>& gauges);
     /// One line for the terminal.
     std::string summary() const;
 
     /// Adds what this object carries to the state to go on from, and takes it back.
-    common::DataFile save(common::DataFile state) const;
+    void save(common::DataFile& state) const;
     void restore(const common::DataFile& state);
 
  private:
-    void fill(const std::vector<GaugeRecord>& gauges);
+    void fill_figures();
+    void fill_invariants();
+    void fill_statistics(const std::vector<GaugeRecord>& gauges);
     const Scene& scene_;
     const Simulation& simulation_;
+    std::filesystem::path folder_;
     common::RunRecord record_;
-    double water_at_start_, energy_at_start_;
+    Envelope envelope_;
+    Waterline waterline_;
+    double water_at_start_, largest_energy_ = 0;
     std::int64_t first_step_ = 0;
+    int notes_ = 0;
 };
 
 }  // namespace boussinesq

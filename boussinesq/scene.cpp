@@ -309,6 +309,9 @@ void decide_effects(const common::SceneFile& file, Scene& scene) {
     scene.terms.dispersion = decide("dispersion", needs_dispersion(expected));
     scene.has_breaking = decide("breaking", needs_breaking(expected));
     scene.terms.shoreline = decide("shoreline", needs_shoreline(expected));
+    scene.shoreline_is_automatic =
+        common::read_effect_wish(file, "shoreline") == common::EffectWish::automatic;
+    scene.breaking_is_automatic = common::read_effect_wish(file, "breaking") == common::EffectWish::automatic;
     scene.has_friction = decide("friction", needs_friction(expected));
     if (scene.has_friction && scene.friction <= 0)
         file.section("effects").problem("friction", "is on, but boussinesq.friction gives no coefficient");

@@ -47,6 +47,7 @@ struct Scene {
     double friction = 0;
     bool friction_is_manning = false;
     bool has_breaking = false, has_friction = false;
+    bool shoreline_is_automatic = true, breaking_is_automatic = true;  ///< may be switched on when needed
     bool breaks_as_bores = false;  ///< hydrostatic bores in place of eddy viscosity
     EddyViscosityConstants breaking;
     std::vector<common::EffectRecord> effects;

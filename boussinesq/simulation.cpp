@@ -29,6 +29,7 @@ Simulation::Simulation(const Grid& grid, Bed bed, const FlowParameters& flow, Fl
 }
 
 double Simulation::next_step() {
+    common::PhaseTimer timer(times_.flow);
     const Survey survey = flow_.survey(state_);
     if (!std::isfinite(survey.fastest) || survey.fastest > fastest_allowed_ || survey.shallowest < 0.0) {
         std::size_t worst = ghost_cells;
@@ -50,9 +51,15 @@ double Simulation::next_step() {
                         time_, steps_, state_.depth[worst], worst_speed, worst - ghost_cells,
                         grid_.centre(worst - ghost_cells)));
     }
+    shallowest_ = survey.shallowest;
     step_ = courant_ * grid_.spacing / survey.fastest;
     largest_courant_ = std::max(largest_courant_, survey.fastest * step_ / grid_.spacing);
     return step_;
+}
+
+void Simulation::add_effect(std::unique_ptr<StepEffect> effect) {
+    effects_.push_back(std::move(effect));
+    times_.effects.push_back(0.0);
 }
 
 void Simulation::advance() {
@@ -155,6 +162,7 @@ common::DataFile Simulation::save() const {
     file.attributes["begun"] = begun_;
     file.attributes["steps"] = steps_;
     file.attributes["water_made"] = flow_.water_made();
+    file.attributes["water_through_ends"] = flow_.water_through_ends();
     file.attributes["largest_courant"] = largest_courant_;
     for (const auto& effect : effects_) {
         const auto memory = effect->memory();
@@ -170,7 +178,7 @@ void Simulation::restore(const common::DataFile& saved) {
     time_ = saved.number("time");
     begun_ = time_;
     steps_ = saved.integer("steps");
-    flow_.set_water_made(saved.number("water_made"));
+    flow_.set_water(saved.number("water_made"), saved.number("water_through_ends"));
     largest_courant_ = saved.number("largest_courant");
     for (const auto& effect : effects_)
         if (saved.has("/effects/" + effect->name()))

@@ -60,6 +60,9 @@ class Simulation {
     FlowStep& flow() { return flow_; }
     const FlowStep& flow() const { return flow_; }
     const std::vector<std::unique_ptr<StepEffect>>& effects() const { return effects_; }
+    void add_effect(std::unique_ptr<StepEffect> effect);
+    /// Least depth at the start of the last step, m.
+    double shallowest() const { return shallowest_; }
     const PhaseTimes& times() const { return times_; }
 
     double water() const;   ///< area of water in the flume, m2
@@ -74,7 +77,7 @@ class Simulation {
     std::vector<std::unique_ptr<StepEffect>> effects_;
     double begun_ = 0, time_ = 0, step_ = 0;
     std::int64_t steps_ = 0;
-    double fastest_allowed_ = 0, largest_courant_ = 0;
+    double fastest_allowed_ = 0, largest_courant_ = 0, shallowest_ = 1e30;
     PhaseTimes times_;
 
     Point cell_at(double share, std::size_t cell) const;

@@ -39,6 +39,9 @@ void WindowOutput::collect() {
             gauge.time.push_back(t);
             gauge.elevation.push_back(elevation);
             gauge.velocity.push_back(velocity);
+            if (!gauge.has_array()) continue;
+            gauge.second_elevation.push_back(simulation_.sample_at(t, gauge.array[0]).elevation);
+            gauge.third_elevation.push_back(simulation_.sample_at(t, gauge.array[1]).elevation);
         }
 }
 

@@ -1,0 +1,59 @@
+#include "boussinesq/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "boussinesq/build_simulation.hpp"
+#include "boussinesq/waves/wave_theory.hpp"
+
+namespace boussinesq {
+
+Forecast forecast(const Scene& scene) {
+    Simulation simulation = build_simulation(scene);
+    const double cells = static_cast<double>(scene.grid.cells);
+    // Long enough to time, short enough to wait for: about a tenth of a second.
+    const int steps = static_cast<int>(std::clamp(1e6 / cells, 4.0, 200.0));
+    double fastest_step = 1e30, nanoseconds = 1e30;
+    for (int repeat = 0; repeat < 3; ++repeat) {
+        const auto begun = std::chrono::steady_clock::now();
+        for (int i = 0; i < steps; ++i) {
+            fastest_step = std::min(fastest_step, simulation.next_step());
+            simulation.advance();
+        }
+        const double seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+        nanoseconds = std::min(nanoseconds, 1e9 * seconds / (cells * steps));
+    }
+    // Waves add their own speed to that of long waves in still water.
+    const double depth = scene.waves.depth, height = scene.waves.height;
+    const double still = std::sqrt(gravity * depth), crest = std::sqrt(gravity * (depth + 0.6 * height)) +
+                                                             0.6 * height * std::sqrt(gravity / depth);
+    Forecast result{};
+    result.steps =
+        scene.time.end / std::min(fastest_step, scene.courant * scene.grid.spacing / std::max(still, crest));
+    result.nanoseconds_per_cell_step = nanoseconds;
+    const double samples = scene.time.end / scene.output_interval,
+                 windows = scene.time.end / scene.time.window;
+    // Writing: 16 ns per value and a few ms per window, measured with checksums and fsync.
+    result.seconds = 1e-9 * nanoseconds * result.steps * cells + samples * cells * 16e-9 + windows * 4e-3;
+    result.memory = 22e6 + cells * 200.0 + samples / windows * cells * 32.0;
+    return result;
+}
+
+void print_check(const common::SceneFile& file, const Scene& scene, bool all) {
+    fmt::print("effects\n");
+    for (const auto& effect : scene.effects)
+        fmt::print("  {:<12} {:<4} {}\n", effect.name, effect.is_on ? "on" : "off", effect.reason);
+    const Forecast expected = forecast(scene);
+    fmt::print(
+        "forecast\n  cells        {} of {:.4g} m\n  steps        about {:.0f}\n  run time     about {:.2g} s "
+        "on this machine ({:.0f} ns per cell and step)\n  memory       about {:.0f} MB\n",
+        scene.grid.cells, scene.grid.spacing, expected.steps, expected.seconds,
+        expected.nanoseconds_per_cell_step, 1e-6 * expected.memory);
+    if (all) fmt::print("\n{}", file.reference());
+}
+
+}  // namespace boussinesq

@@ -1,0 +1,35 @@
+/// Effects that "auto" left out are watched for: when one turns out to be needed the run says so and switches
+/// it on; where the user's word is "off" the run says so once, and stops where it cannot go on without.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "boussinesq/scene.hpp"
+#include "boussinesq/simulation.hpp"
+
+namespace boussinesq {
+
+class EffectWatch {
+ public:
+    explicit EffectWatch(const Scene& scene) : scene_(scene) {}
+    /// After a step. Returns what changed, in words. Throws RunError where a cell dries and shoreline is
+    /// "off".
+    std::optional<std::string> look(Simulation& simulation);
+    /// Switches on again what had been switched on before an interruption; call before Simulation::restore.
+    void restore(Simulation& simulation, const common::DataFile& state);
+    void save(common::DataFile& state) const;
+
+ private:
+    void start_breaking(Simulation& simulation);
+    const Scene& scene_;
+    bool shoreline_started_ = false, breaking_started_ = false, breaking_told_ = false;
+};
+
+/// Largest eta_t / sqrt(g h) over the flume, and where (x, m).
+struct SteepestFront {
+    double ratio, place;
+};
+SteepestFront steepest_front(const Simulation& simulation);
+
+}  // namespace boussinesq
