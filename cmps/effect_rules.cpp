@@ -23,6 +23,10 @@ void decide_effects(const common::SceneFile& file, Scene& scene) {
     decide("relaxation_zone", has_zone,
            has_zone ? "cmps.boundary asks for it" : is_wave_driven ? "cmps.boundary = \"paper\"" : "not driven by waves");
 
+    const bool has_overflow = is_wave_driven && scene.boundary != Boundary::relaxation;
+    decide("wall_overflow", has_overflow,
+           has_overflow ? "cmps.boundary asks for it" : is_wave_driven ? "the relaxation zone takes reflected waves" : "not driven by waves");
+
     // boundary layer of a wave of about a second: sqrt(nu T)
     const double layer = std::sqrt(scene.viscosity * 1.0);
     const bool is_resolved = layer > 2.0 * scene.settings.spacing;

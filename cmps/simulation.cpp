@@ -106,6 +106,12 @@ void Simulation::compose_effects(double) {
         });
         wall_ = wall.get();
         effects.push_back(std::move(wall));
+        if (scene_.has_effect("wall_overflow")) {
+            auto overflow = std::make_unique<WallOverflow>(*field_, *waves_, *wall_, scene_.crest_lowering,
+                                                           bottom_level(scene_, scene_.offshore));
+            overflow_ = overflow.get();
+            effects.push_back(std::move(overflow));
+        }
         if (scene_.has_effect("relaxation_zone"))
             effects.push_back(std::make_unique<RelaxationZone>(*waves_, *wall_, scene_.relaxation_length,
                                                                scene_.relaxation_strength, scene_.return_time));
@@ -337,7 +343,8 @@ void Simulation::describe(common::RunRecord& record) const {
     const double infinity = std::numeric_limits<double>::infinity();
     const NearField& field = *field_;
     const std::size_t collected = basin_ ? basin_->collected() : 0;
-    const auto missing = static_cast<double>(initial_fluid_) - static_cast<double>(field.particles.fluid + collected);
+    const std::size_t waiting = overflow_ ? overflow_->waiting() : 0;
+    const auto missing = static_cast<double>(initial_fluid_) - static_cast<double>(field.particles.fluid + collected + waiting);
     record.set_invariant({"particle_ledger", missing, "particles", 0.5});
     if (initial_volume_ > 0) {
         record.set_invariant({"mass_drift", volume_drift_, "-", 0.02});
@@ -347,6 +354,10 @@ void Simulation::describe(common::RunRecord& record) const {
     const double count = static_cast<double>(field.particles.size()), steps = static_cast<double>(field.counts.steps);
     record.set_figure("particles.fluid", static_cast<double>(field.particles.fluid));
     record.set_figure("particles.all", count);
+    if (overflow_) {
+        record.set_figure("particles.waiting", static_cast<double>(waiting));
+        record.set_figure("particles.passed_wall", static_cast<double>(overflow_->passed()));
+    }
     record.set_figure("particles.overtopped", static_cast<double>(collected));
     record.set_figure("overtopped_volume", static_cast<double>(collected) * scene_.settings.spacing * scene_.settings.spacing);
     record.set_figure("start_time", start_);

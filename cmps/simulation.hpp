@@ -8,6 +8,7 @@
 
 #include "cmps/effects/moving_wall.hpp"
 #include "cmps/effects/overtopping_basin.hpp"
+#include "cmps/effects/wall_overflow.hpp"
 #include "cmps/flow_grid.hpp"
 #include "cmps/near_field.hpp"
 #include "cmps/scene.hpp"
@@ -60,6 +61,7 @@ class Simulation {
     std::optional<FlowGrid> flow_;
     MovingWall* wall_ = nullptr;            // owned by field_->effects
     OvertoppingBasin* basin_ = nullptr;     // owned by field_->effects
+    WallOverflow* overflow_ = nullptr;      // owned by field_->effects
     double time_ = 0, start_ = 0;
     std::size_t initial_fluid_ = 0;
     double initial_volume_ = 0, largest_volume_drift_ = 0, volume_drift_ = 0;

@@ -84,6 +84,8 @@ void Solid::find_surface(const Point& low, const Point& high) {
             for (const Part& other : parts_)
                 for (std::size_t k = 0; k < other.points.size(); ++k)
                     add_cuts(a, b, other.points[k], other.points[(k + 1) % other.points.size()], cuts);
+            const Polygon box = {low, {high[0], low[1]}, high, {low[0], high[1]}};
+            for (std::size_t k = 0; k < 4; ++k) add_cuts(a, b, box[k], box[(k + 1) % 4], cuts);
             std::erase_if(cuts, [](double s) { return s < 0 || s > 1; });
             std::sort(cuts.begin(), cuts.end());
             for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
