@@ -105,13 +105,14 @@ class Chain {
     int fail(const RunningStage& cause);
     int interrupt();
     void write_record(const std::string& status, const std::string& message = {});
+    void look();
     std::vector<std::string> lines();
 
     const Command& command_;
     common::ChainRecord record_;
     std::list<RunningStage> stages_;
     Board board_;
-    Clock::time_point begun_ = Clock::now();
+    Clock::time_point begun_ = Clock::now(), last_look_ = begun_;
 };
 
 Chain::Chain(const Command& command, const std::vector<StagePlace>& places, common::TimeSection time)
@@ -168,6 +169,7 @@ int Chain::run() {
                 common::check_for_interrupt();
                 return fail(*find_failed());
             }
+            look();
             if (board_.is_due()) board_.show(lines());
             std::this_thread::sleep_for(20ms);
         }
@@ -292,15 +294,22 @@ void Chain::write_record(const std::string& status, const std::string& message) 
     common::write_chain_record(command_.folder, record_);
 }
 
+/// Reads how far the stages have come, a few times a second.
+void Chain::look() {
+    using namespace std::chrono_literals;
+    if (command_.quiet || Clock::now() - last_look_ < 250ms) return;
+    last_look_ = Clock::now();
+    for (auto& stage : stages_)
+        if (stage.runs() && stage.shows_itself()) stage.progress.look();
+}
+
 std::vector<std::string> Chain::lines() {
     std::vector<std::string> lines;
     for (auto& stage : stages_) {
-        std::string text;
-        if (stage.process && (stage.shows_itself() || stage.record.status == "unchanged")) {
-            stage.progress.look();
-            text = stage.progress.describe();
-        }
-        if (stage.process && stage.process->has_ended())
+        const bool has_ended = stage.process && stage.process->has_ended();
+        if (has_ended) stage.progress.look();
+        std::string text = stage.progress.describe();
+        if (has_ended)
             text += fmt::format("{}{:.1f} s, {}", text.empty() ? "" : ", ", stage.record.wall_time,
                                 memory_text(stage.record.peak_memory));
         lines.push_back(fmt::format("{:<10}  {:<11}  {}", stage.place.name, stage.record.status, text));
