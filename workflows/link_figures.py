@@ -20,12 +20,18 @@ class Link:
     time: numpy.ndarray
     waves: numpy.ndarray
     flow: numpy.ndarray
-    begin: float            # of the periods compared
+    height: float           # mean crest-to-trough height of boussinesq's full waves
+    spans: list             # Span: "any" reflection back, "half" of the wave height back
+
+
+@dataclasses.dataclass
+class Span:
+    """The periods before the reflection of waves of a given share of the full height is back."""
+    share: float
+    begin: float
     end: float
     periods: float
-    height: float           # mean crest-to-trough height of boussinesq's full waves
     rms_over_height: float
-    flow_height: float      # of cmps in the periods compared
 
 
 def wave_number(period, depth, gravity=9.81):
@@ -68,8 +74,9 @@ def compare(chain, gauge="link", periods=4):
     """Compares the last `periods` wave periods before the reflection from the structure is back at the gauge.
 
     The reflection is back when the front of the waves, seen at the gauge when the surface first moves by 5 % of the full
-    height, has travelled to the front face and back at the group speed of linear theory. The height is that of
-    boussinesq's waves from there on, which know no reflection.
+    height (`spans[0]`; nothing has come back before) or by half of it (`spans[1]`; the weak front of the reflection is
+    back, but the waves compared are nearly full), has travelled to the front face and back at the group speed of linear
+    theory. The height is that of boussinesq's full waves, which know no reflection.
     """
     chain = pathlib.Path(chain)
     values = run_folder.read_run(chain / "flow")["scene"]["values"]
@@ -87,19 +94,22 @@ def compare(chain, gauge="link", periods=4):
     time, waves = time[inside], waves[inside]
     flow = numpy.interp(time, flow_time, flow)
     full_height = waves[len(waves) // 2:].max() - waves[len(waves) // 2:].min()
-    arrival = time[numpy.argmax(abs(waves) > 0.05 * full_height)]
-    end = min(arrival + 2 * distance / group_speed(period, depth), time[-1])
-    begin = max(end - periods * period, time[0])
-    chosen = (time >= begin) & (time <= end)
     per_period = round(period / (time[1] - time[0]))
-    height = mean_height(waves[time >= begin + periods * period / 2], per_period)
-    rms = float(numpy.sqrt(((flow - waves)[chosen] ** 2).mean()))
-    return Link(x, time, waves, flow, begin, end, (end - begin) / period, height, rms / height,
-                mean_height(flow[chosen], per_period))
+    height = mean_height(waves[len(waves) // 2:], per_period)
+    spans = []
+    for share in (0.05, 0.5):
+        arrival = time[numpy.argmax(abs(waves) > share * full_height)]
+        end = min(arrival + 2 * distance / group_speed(period, depth), time[-1])
+        begin = max(end - periods * period, time[0])
+        chosen = (time >= begin) & (time <= end)
+        rms = float(numpy.sqrt(((flow - waves)[chosen] ** 2).mean()))
+        spans.append(Span(share, begin, end, (end - begin) / period, rms / height))
+    return Link(x, time, waves, flow, height, spans)
 
 
 if __name__ == "__main__":
     link = compare(sys.argv[1])
-    print(f"gauge link, x = {link.x:g} m, t = {link.begin:.2f} to {link.end:.2f} s ({link.periods:.1f} periods): "
-          f"wave height {link.height:.4f} m (boussinesq), {link.flow_height:.4f} m (cmps), "
-          f"RMS difference {100 * link.rms_over_height:.1f} % of it")
+    print(f"gauge link, x = {link.x:g} m, wave height {link.height:.4f} m")
+    for span in link.spans:
+        print(f"{span.periods:.1f} periods before the reflection of waves above {span.share:g} of it is back, "
+              f"t = {span.begin:.2f} to {span.end:.2f} s: RMS difference {100 * span.rms_over_height:.1f} % of it")

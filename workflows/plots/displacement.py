@@ -15,17 +15,18 @@ offshore = 1000 * (position[0, :, 0] - position[:, :, 0])  # mm, towards the sea
 total = 1000 * numpy.linalg.norm(position[-1] - position[0], axis=1)
 count = position.shape[1]
 wired = numpy.zeros(count, bool)
-wired[numpy.unique(geometry.get("/wires/blocks", numpy.zeros((0, 2), int)))] = True
-groups = [("wired", wired, style.FLOW), ("unwired", ~wired, style.WAVES)]
+wired[numpy.unique(geometry.get("/wires/ends", numpy.zeros((0, 4), int))[:, [0, 2]])] = True
+movable = geometry["/blocks/fixed"] == 0
+groups = [("wired", wired & movable, style.FLOW), ("unwired", ~wired & movable, style.WAVES)]
 groups = [group for group in groups if group[1].any()]
 
 figure, (by_block, by_time) = plt.subplots(2, 1, figsize=(11.5, 7))
 number = numpy.arange(1, count + 1)
 for label, members, colour in groups:
     by_block.bar(number[members], offshore[-1, members], color=colour, width=0.8, label=f"{label} ({members.sum()} blocks)")
-by_block.plot(number, total, ".", color="0.2", ms=4, label="distance in all directions")
+by_block.plot(number[movable], total[movable], ".", color="0.2", ms=4, label="distance in all directions")
 by_block.axhline(0, color="0.3", lw=0.8)
-by_block.set_xlim(0, count + 1)
+by_block.set_xlim(0, number[movable].max() + 1)
 by_block.set_xlabel("block number (row by row from the shore)")
 by_block.set_ylabel("offshore displacement, mm")
 by_block.set_title(f"at t = {time[-1]:.2f} s")

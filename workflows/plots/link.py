@@ -12,14 +12,19 @@ link = link_figures.compare(chain)
 figure, (above, below) = plt.subplots(2, 1, figsize=(11, 5.2), sharex=True, height_ratios=(2, 1))
 above.plot(link.time, 100 * link.waves, color=style.WAVES, label="boussinesq (incident wave)")
 above.plot(link.time, 100 * link.flow, color=style.FLOW, label="cmps")
-above.axvspan(link.begin, link.end, color="0.9", zorder=0)
-above.text(link.begin, above.get_ylim()[1], f" {link.periods:g} periods before the reflection returns", va="top", fontsize=9)
+strict, late = link.spans
+for axis in (above, below):
+    axis.axvspan(strict.begin, strict.end, color="0.86", zorder=0, lw=0)
+    axis.axvspan(max(late.begin, strict.end), late.end, color="0.94", zorder=0, lw=0)
+top = above.get_ylim()[1]
+above.text(strict.begin, top, f" {strict.periods:.1f} periods before any reflection:\n RMS difference "
+           f"{100 * strict.rms_over_height:.1f} % of the height", va="top", fontsize=9)
+above.text(late.end, top, f"{late.periods:.1f} periods before that of half the height:\n"
+           f"{100 * late.rms_over_height:.1f} % ", va="top", ha="left", fontsize=9)
 above.set_ylabel("elevation, cm")
 above.legend(loc="lower left", ncol=2)
-above.set_title(f"gauge link, x = {link.x:.1f} m: RMS difference {100 * link.rms_over_height:.1f} % of the wave height "
-                f"({100 * link.height:.1f} cm)")
+above.set_title(f"gauge link, x = {link.x:.1f} m, wave height {100 * link.height:.1f} cm")
 below.plot(link.time, 100 * (link.flow - link.waves), color="0.3")
-below.axvspan(link.begin, link.end, color="0.9", zorder=0)
 below.set_ylabel("cmps - boussinesq, cm")
 below.set_xlabel("time, s")
 style.save(figure, picture)

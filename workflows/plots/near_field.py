@@ -30,10 +30,8 @@ def instants():
 
 
 def draw_solids(axis):
-    geometry = run_folder.read_geometry(flow)
-    points, polygon = geometry["/structure/points"], geometry["/structure/polygon"]
-    for number in numpy.unique(polygon):
-        axis.fill(*points[polygon == number].T, color=style.CONCRETE, ec="0.35", lw=0.8, zorder=3)
+    for polygon in style.scene_value(record, "cmps", "structure", []):
+        axis.fill(*numpy.array(polygon, dtype=float).T, color=style.CONCRETE, ec="0.35", lw=0.8, zorder=3)
     bed = style.scene_value(record, "flume", "bed")
     if bed:
         x, z = numpy.array(bed, dtype=float).T
@@ -47,21 +45,22 @@ def draw_blocks(axis, instant):
     time, position, orientation = run_folder.read_series(chain / "blocks", "/blocks/position", "/blocks/orientation",
                                                          begin=instant - 1, end=instant + 1)
     sample = numpy.abs(time - instant).argmin()
-    geometry = run_folder.read_geometry(chain / "blocks")
-    begin, end = geometry["/blocks/sphere_begin"], geometry["/blocks/sphere_end"]
-    spheres = [position[sample, b] + style.rotate(orientation[sample, b], geometry["/spheres/position"][begin[b]:end[b]])
-               for b in range(position.shape[1])]
-    spheres = numpy.concatenate(spheres)
-    diameter = numpy.concatenate([geometry["/spheres/diameter"][begin[b]:end[b]] for b in range(position.shape[1])])
-    axis.add_collection(EllipseCollection(diameter, diameter, numpy.zeros(len(spheres)), units="xy", facecolors="#4a4a4a",
-                                          offsets=spheres[:, [0, 2]], transOffset=axis.transData, zorder=4))
+    shapes = style.BlockShapes(run_folder.read_geometry(chain / "blocks"))
+    centres = [shapes.centres(b, position[sample, b], orientation[sample, b]) for b in range(position.shape[1])]
+    diameter = numpy.concatenate([numpy.full(len(c), shapes.diameter(b)) for b, c in enumerate(centres)])
+    centres = numpy.concatenate(centres)
+    axis.add_collection(EllipseCollection(diameter, diameter, 0 * diameter, units="xy", facecolors="#4a4a4a",
+                                          offsets=centres[:, [0, 2]], transOffset=axis.transData, zorder=4))
 
 
 shown = instants()
 figure, axes = plt.subplots(len(shown), 1, figsize=(13, 1.5 * len(shown) + 0.6), sharex=True, sharey=True)
-spacing = float(record["figures"].get("particle_spacing", 0.02))
+spacing = float(style.scene_value(record, "cmps", "particle_spacing"))
 offshore = float(style.scene_value(record, "cmps", "offshore"))
 onshore = float(style.scene_value(record, "cmps", "onshore"))
+corners = [corner for polygon in style.scene_value(record, "cmps", "structure", []) for corner in polygon]
+if corners:
+    onshore = min(onshore, max(x for x, _ in corners) + 0.3)
 pressures = []
 for axis, instant in zip(numpy.atleast_1d(axes), shown):
     _, position, pressure = run_folder.read_series(flow, "/particles/position", "/particles/pressure",

@@ -1,6 +1,7 @@
-"""Blocks and wires seen from above at three instants: spheres of every block, wires coloured by tension.
+"""Blocks and wires seen from above at three instants: spheres of every block, links coloured by tension.
 
-The shore (the caisson) is at the top. Beside each panel stand the largest and the smallest tension of that instant.
+A link is one line between two blocks; its tension is the sum over its wires. A link that lost wires is dashed. The shore
+(the caisson) is at the top. Above each panel stand the largest and the smallest tension of one wire at that instant.
 
 usage: plan.py BLOCKS PICTURE
 """
@@ -16,11 +17,12 @@ blocks, picture = style.arguments("BLOCKS", "PICTURE")
 geometry = run_folder.read_geometry(blocks)
 record = run_folder.read_run(blocks)
 names = ["/blocks/position", "/blocks/orientation"]
-has_wires = len(geometry.get("/wires/blocks", ())) > 0
+shapes = style.BlockShapes(geometry)
+ends = geometry.get("/wires/ends", numpy.zeros((0, 4), int))  # block, sphere, block, sphere
+has_wires = len(ends) > 0
 time, position, orientation, *wires = run_folder.read_series(
     blocks, *names, *(["/wires/tension", "/wires/intact"] if has_wires else []))
 tension, intact = wires if has_wires else (numpy.zeros((len(time), 0)), numpy.zeros((len(time), 0)))
-begin, end = geometry["/blocks/sphere_begin"], geometry["/blocks/sphere_end"]
 arrival = record["figures"].get("clock", {}).get("waves_reach_blocks")
 count = position.shape[1]
 
@@ -33,7 +35,15 @@ elif has_wires:
 else:
     wanted.insert(1, 0.5 * (time[0] + time[-1]))
 samples = [numpy.abs(time - instant).argmin() for instant in wanted]
-most = max(float(tension[samples].max()) if has_wires else 0, 1e-12)
+pairs, link_of_wire = numpy.unique(ends[:, [0, 2]], axis=0, return_inverse=True)
+
+
+def total(values):
+    """Sum over the wires of each link."""
+    return numpy.bincount(link_of_wire, values, len(pairs))
+
+
+most = max((total(tension[sample]).max() for sample in samples), default=0) if has_wires else 0
 
 moved = numpy.linalg.norm(position - position[0], axis=2)
 most_moved = max(float(moved[samples].max()), 1e-12)
@@ -45,31 +55,31 @@ height = 10 * (x_high - x_low) / (y_high - y_low) + 0.75
 figure, axes = plt.subplots(len(samples), 1, figsize=(11.5, height * len(samples)), sharex=True)
 
 
-def sphere_places(sample, block):
-    return position[sample, block] + style.rotate(orientation[sample, block],
-                                                  geometry["/spheres/position"][begin[block]:end[block]])
+def centres(sample, block):
+    return shapes.centres(block, position[sample, block], orientation[sample, block])
 
 
 for axis, sample in zip(axes, samples):
     for block in range(count):
-        places = sphere_places(sample, block)
-        diameter = geometry["/spheres/diameter"][begin[block]:end[block]]
-        colour = block_colours(moved[sample, block] / most_moved)
+        places = centres(sample, block)
+        colour = "#c9c4b8" if shapes.is_fixed[block] else block_colours(moved[sample, block] / most_moved)
+        diameter = numpy.full(len(places), shapes.diameter(block))
         top = numpy.argsort(places[:, 2])
         axis.add_collection(EllipseCollection(diameter, diameter, 0 * diameter, units="xy", offsets=places[top][:, [1, 0]],
                                               transOffset=axis.transData, facecolors=colour, edgecolors="0.55",
                                               linewidths=0.15))
-    for block in range(count):
-        axis.text(position[sample, block, 1], position[sample, block, 0], f"{block + 1}", ha="center", va="center",
-                  fontsize=5.5, color="0.25", zorder=5)
+        if not shapes.is_fixed[block]:
+            axis.text(position[sample, block, 1], position[sample, block, 0], f"{block + 1}", ha="center", va="center",
+                      fontsize=5.5, color="0.25", zorder=5)
     if has_wires:
-        pairs, spheres = geometry["/wires/blocks"], geometry["/wires/spheres"]
-        order = numpy.argsort(tension[sample])
-        segments = [[sphere_places(sample, pairs[w, end_])[spheres[w, end_]][[1, 0]] for end_ in (0, 1)]
-                    for w in order if intact[sample, w]]
-        values = [tension[sample, w] for w in order if intact[sample, w]]
-        lines = LineCollection(segments, array=numpy.array(values), cmap="plasma_r", linewidths=2.4, zorder=4)
-        lines.set_clim(0, most)
+        link_tension, broken = total(tension[sample]), total(intact[sample] == 0) > 0
+        places = position[sample][pairs][:, :, [1, 0]]
+        # From edge to edge of the facing halves, so that the numbers stay readable.
+        segments = places + 0.28 * (places[:, ::-1] - places)
+        order = numpy.argsort(link_tension)
+        lines = LineCollection(segments[order], array=link_tension[order], cmap="plasma_r", linewidths=4, zorder=4,
+                               capstyle="round", linestyles=["--" if lost else "-" for lost in broken[order]])
+        lines.set_clim(0, max(most, 1e-12))
         axis.add_collection(lines)
     paper_clock = f" (paper's clock {time[sample] - arrival:.2f} s)" if arrival is not None and time[sample] > arrival else ""
     state = ""
@@ -84,5 +94,5 @@ for axis, sample in zip(axes, samples):
     axis.grid(False)
 axes[-1].set_xlabel("y, m (along the breakwater)")
 if has_wires:
-    figure.colorbar(lines, ax=axes, label="wire tension, N", shrink=0.6, pad=0.01)
+    figure.colorbar(lines, ax=axes, label="tension of a link (all its wires), N", shrink=0.6, pad=0.01)
 style.save(figure, picture)

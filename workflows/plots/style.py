@@ -45,3 +45,20 @@ def rotate(orientation, vectors):
     w, axis = orientation[0], orientation[1:]
     cross = numpy.cross(axis, vectors)
     return vectors + 2 * (w * cross + numpy.cross(axis, cross))
+
+
+class BlockShapes:
+    """Spheres of every block, from dem's geometry.h5."""
+
+    def __init__(self, geometry):
+        self._shape_of = geometry["/blocks/shape"]
+        self._spheres = [geometry[f"/shapes/{i}/spheres"] for i in range(self._shape_of.max() + 1)]
+        self._diameter = [float(geometry[f"/shapes/{i}/diameter"][0]) for i in range(self._shape_of.max() + 1)]
+        self.is_fixed = geometry["/blocks/fixed"] != 0
+
+    def centres(self, block, position, orientation):
+        """Sphere centres of a block at a pose, (n, 3) m."""
+        return position + rotate(orientation, self._spheres[self._shape_of[block]])
+
+    def diameter(self, block):
+        return self._diameter[self._shape_of[block]]
