@@ -1,10 +1,11 @@
 """The whole chain on a small scene: it runs, its files agree, and neither windows nor threads change its results."""
 import shutil
+import subprocess
 
 import numpy
 
-from harness import (SCENES, check, check_below, check_between, check_invariants, check_same_bytes, main, run, run_folder,
-                     test)
+from harness import (BIN, SCENES, SOURCE, check, check_below, check_between, check_invariants, check_same_bytes,
+                     environment, main, run, run_folder, test)
 
 SCENE = SCENES / "small.toml"
 FOLDERS = ("waves", "flow", "blocks")
@@ -112,6 +113,16 @@ def the_near_field_may_start_in_any_window(folder):
         check_below("first instant of the flow minus the start asked for", time[0] - start, 1e-9, "s", "rounding")
         check_below("last instant of the flow minus the end", time[-1] - 7.0, 1e-9, "s", "rounding")
         run("dem", "run", SCENE, "--set", f"cmps.start={start}", "--flow", out, "--out", folder / f"blocks_{start}").expect_done()
+
+
+@test
+def pictures_are_drawn(folder):
+    chain = whole_chain(folder)
+    ended = subprocess.run(["make", "-s", "-C", SOURCE / "workflows", "plots", f"OUT={chain}", f"BIN={BIN}"],
+                           capture_output=True, text=True, env=environment(MAKEFLAGS=""))
+    check(ended.returncode == 0, ended.stderr)
+    names = {path.stem for path in (chain / "pictures").glob("*.png") if path.stat().st_size > 10000}
+    check(names == {"gauges", "link", "near_field", "blocks_plan", "blocks_displacement"}, names)
 
 
 @test

@@ -26,14 +26,15 @@ tension, intact = wires if has_wires else (numpy.zeros((len(time), 0)), numpy.ze
 arrival = record["figures"].get("clock", {}).get("waves_reach_blocks")
 count = position.shape[1]
 
-# The start, the paper's instant of tensions where the run reaches it (else when the wires pull most), and the end.
-wanted = [time[0], time[-1]]
+# The start; the paper's instant of tensions, or else when the wires pull most, or else half way; and the end.
+strongest = time[tension.max(axis=1).argmax()] if has_wires else time[-1]
 if arrival is not None and time[0] < arrival + 9.99 < time[-1]:
-    wanted.insert(1, arrival + 9.99)
-elif has_wires:
-    wanted.insert(1, time[tension.max(axis=1).argmax()])
+    between = arrival + 9.99
+elif time[0] < strongest < time[-1]:
+    between = strongest
 else:
-    wanted.insert(1, 0.5 * (time[0] + time[-1]))
+    between = 0.5 * (time[0] + time[-1])
+wanted = [time[0], between, time[-1]]
 samples = [numpy.abs(time - instant).argmin() for instant in wanted]
 pairs, link_of_wire = numpy.unique(ends[:, [0, 2]], axis=0, return_inverse=True)
 
