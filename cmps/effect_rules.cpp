@@ -33,6 +33,15 @@ void decide_effects(const common::SceneFile& file, Scene& scene) {
     decide("viscosity", is_resolved,
            fmt::format("boundary layer of one second {:.2g} m, particle spacing {:.2g} m", layer, scene.settings.spacing));
 
+    const double height = is_wave_driven && file.has_section("waves") && file.foreign_section("waves").is_number("height")
+                              ? file.foreign_section("waves").number("height", "m", "wave height", common::Range::any(), 0.0)
+                              : 0.0;
+    // in front of a reflecting structure waves stand twice as high as they came
+    const double steepness = (scene.structure.empty() ? 1.0 : 2.0) * height / scene.settings.depth;
+    decide("turbulence", steepness > 0.8,
+           height == 0 ? "no wave height is given: no breaking expected"
+                       : fmt::format("largest H/h {:.2f} {} 0.8: {}breaking expected", steepness, steepness > 0.8 ? ">" : "<=", steepness > 0.8 ? "" : "no "));
+
     double crest = -1e300;
     for (const Polygon& polygon : scene.structure)
         for (const Point& p : polygon) crest = std::max(crest, p[1]);

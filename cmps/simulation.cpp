@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "cmps/effects/gravity_history.hpp"
 #include "cmps/effects/relaxation_zone.hpp"
+#include "cmps/effects/turbulence.hpp"
 #include "cmps/effects/viscosity.hpp"
 #include "cmps/gauges.hpp"
 #include "cmps/initial_state.hpp"
@@ -100,8 +102,8 @@ Simulation::Simulation(const Scene& scene, WaveField* waves, double start)
 void Simulation::compose_effects(double) {
     auto& effects = field_->effects;
     if (scene_.drive == Drive::waves) {
-        auto wall = std::make_unique<MovingWall>(scene_.offshore, [this](double time, double x) {
-            waves_->go_to(time);
+        auto wall = std::make_unique<MovingWall>(scene_.offshore, [this](double time, double step, double x) {
+            waves_->go_to(time + 0.5 * step);
             return returning_wall_velocity(waves_->mean_velocity(x), x - scene_.offshore, scene_.return_time);
         });
         wall_ = wall.get();
@@ -116,7 +118,17 @@ void Simulation::compose_effects(double) {
             effects.push_back(std::make_unique<RelaxationZone>(*waves_, *wall_, scene_.relaxation_length,
                                                                scene_.relaxation_strength, scene_.return_time));
     }
+    if (scene_.drive == Drive::piston) {
+        const auto path = std::make_shared<TimeTable>(scene_.piston_file, 2);
+        auto wall = std::make_unique<MovingWall>(scene_.offshore, [path](double time, double step, double) {
+            return (path->value(1, time + step) - path->value(1, time)) / step;
+        });
+        wall_ = wall.get();
+        effects.push_back(std::move(wall));
+    }
+    if (!scene_.gravity_file.empty()) effects.push_back(std::make_unique<GravityHistory>(TimeTable(scene_.gravity_file, 3)));
     if (scene_.has_effect("viscosity")) effects.push_back(std::make_unique<Viscosity>(scene_.viscosity));
+    if (scene_.has_effect("turbulence")) effects.push_back(std::make_unique<Turbulence>(scene_.smagorinsky));
     if (scene_.has_effect("overtopping_basin")) {
         auto basin = std::make_unique<OvertoppingBasin>(rear_of_structure(scene_));
         basin_ = basin.get();

@@ -3,7 +3,7 @@
 namespace cmps {
 
 void MovingWall::begin_step(NearField& field, double time, double step) {
-    speed_ = velocity_(time + 0.5 * step, position());
+    speed_ = velocity_(time, step, position());
     Particles& particles = field.particles;
     for (std::size_t i = 0; i < particles.first_fluid(); ++i)
         if (particles.body[i] == body_moving_wall) particles.u[i] = speed_;

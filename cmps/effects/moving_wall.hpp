@@ -10,8 +10,9 @@ namespace cmps {
 /// Moves every boundary particle of `body_moving_wall` with one velocity.
 class MovingWall final : public Effect {
  public:
-    /// `velocity(time, x)`: of the wall at its present place, m/s. The wall starts at `x`.
-    MovingWall(double x, std::function<double(double, double)> velocity) : start_(x), velocity_(std::move(velocity)) {}
+    /// `velocity(time, step, x)`: mean velocity from `time` to `time + step` of the wall that stands at x, m/s.
+    /// The wall starts at `x`.
+    MovingWall(double x, std::function<double(double, double, double)> velocity) : start_(x), velocity_(std::move(velocity)) {}
     std::string name() const override { return "moving wall"; }
     void begin_step(NearField& field, double time, double step) override;
     void end_step(NearField& field, double time, double step) override;
@@ -24,7 +25,7 @@ class MovingWall final : public Effect {
 
  private:
     double start_;
-    std::function<double(double, double)> velocity_;
+    std::function<double(double, double, double)> velocity_;
     double displacement_ = 0, speed_ = 0;
 };
 
