@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "cmps/effect_rules.hpp"
+#include "cmps/forecast.hpp"
 #include "cmps/scene.hpp"
 #include "cmps/simulation.hpp"
 #include "common/errors.hpp"
@@ -34,10 +35,33 @@ double start_time(const cmps::Scene& scene, cmps::WaveField* waves) {
     return std::floor(arrival / scene.time.window) * scene.time.window;
 }
 
-int check(const common::SceneFile& file, const cmps::Scene& scene, bool all) {
-    if (all) std::cout << file.reference();
+/// What the levels cost in accuracy: standing wave of half a tank, five periods (tests/verification/cmps).
+std::string expected_error(double particles_over_depth) {
+    return fmt::format("wave period {:.1f} %, wave height {:.0f} % lost per wave length", 100 / particles_over_depth / particles_over_depth,
+                       40 / particles_over_depth);
+}
+
+int check(const common::StageCommand& command, const common::SceneFile& file, const cmps::Scene& scene) {
+    if (command.all) std::cout << file.reference() << "\n";
+    std::cout << "effects:\n";
     for (const auto& effect : scene.effects)
-        std::cout << fmt::format("{:<20} {:<4} {}\n", effect.name, effect.is_on ? "on" : "off", effect.reason);
+        std::cout << fmt::format("  {:<18} {:<4} {}\n", effect.name, effect.is_on ? "on" : "off", effect.reason);
+    double start = -1;
+    if (!command.upstream.empty() && scene.drive == cmps::Drive::waves) {
+        common::WindowReader reader(command.upstream, "boussinesq", wave_datasets, false);
+        cmps::WaveField waves(reader, scene.offshore - 0.5, scene.offshore + 0.5);
+        start = start_time(scene, &waves);
+    }
+    const cmps::Forecast forecast = cmps::make_forecast(scene, start);
+    std::cout << fmt::format(
+        "forecast (one thread of this machine):\n"
+        "  particles          {} in the water, {} in walls; spacing {:.4g} m\n"
+        "  time               from {}{:.1f} s to {:g} s, {:.0f} steps of about {:.2g} s\n"
+        "  run time           about {:.3g} s, {:.0f} MB\n"
+        "  expected error     {}\n",
+        forecast.fluid, forecast.boundary, scene.settings.spacing, start < 0 && !scene.start && forecast.start > 0 ? "about " : "", forecast.start,
+        scene.time.end, forecast.steps, forecast.step, forecast.seconds, forecast.memory / 1e6,
+        expected_error(scene.settings.depth / scene.settings.spacing));
     return common::exit_done;
 }
 
@@ -119,7 +143,7 @@ int main(int argc, char** argv) {
         cmps::Scene scene = cmps::read_scene(file);
         cmps::decide_effects(file, scene);
         file.finish();
-        if (command.verb == common::StageCommand::Verb::check) return check(file, scene, command.all);
+        if (command.verb == common::StageCommand::Verb::check) return check(command, file, scene);
         return run(command, file, scene);
     });
 }

@@ -40,11 +40,11 @@ void check_polygons(const Section& section, const char* key, std::vector<Polygon
 /// Resolution and schemes of the accuracy levels: particles over the depth of still water at the wall.
 int particles_over_depth(common::Accuracy accuracy) {
     switch (accuracy) {
-        case common::Accuracy::draft: return 13;
-        case common::Accuracy::standard: return 20;
-        case common::Accuracy::fine: return 40;
+        case common::Accuracy::draft: return 16;
+        case common::Accuracy::standard: return 30;
+        case common::Accuracy::fine: return 50;
     }
-    return 20;
+    return 30;
 }
 
 void read_geometry(const common::SceneFile& file, const Section& section, Scene& scene) {
@@ -75,7 +75,7 @@ void read_geometry(const common::SceneFile& file, const Section& section, Scene&
 void read_numerics(const common::SceneFile& file, const Section& section, Scene& scene, double depth) {
     Settings& settings = scene.settings;
     const int over_depth = particles_over_depth(file.accuracy());
-    settings.spacing = section.number("particle_spacing", "m", "l0; default: a whole number of particles over the depth at the wall (draft 13, standard 20, fine 40)",
+    settings.spacing = section.number("particle_spacing", "m", "l0; default: a whole number of particles over the depth at the wall (draft 16, standard 30, fine 50)",
                                       Range::positive(), depth / over_depth);
     if (settings.spacing > 0.34 * depth)
         section.problem("particle_spacing", fmt::format("{:g} m is too coarse: the water is {:g} m deep, at least three particles must stand in it", settings.spacing, depth));
