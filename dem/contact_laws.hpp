@@ -39,8 +39,8 @@ struct LinearLaw {
 
 /// What a tangential law gives back for one contact.
 struct TangentialForce {
-    Vector force;        ///< on the first body, N
-    double dissipated;   ///< J in this step
+    Vector dashpot;     ///< its part of the force on the first body, N; the spring is the rest
+    double dissipated;  ///< by the spring giving way in this step, J
 };
 
 /// Mindlin spring with history, dashpot, and the Coulomb limit.
@@ -49,45 +49,48 @@ struct TangentialForce {
 /// would gain energy. When the contact unloads, the force shrinks with the stiffness (Thornton et al. 2013).
 struct CoulombFriction {
     double coefficient;
-    double stiffness_ratio;
+    double stiffness_ratio;  ///< tangential over normal
+    double root_of_ratio;
 
     explicit CoulombFriction(const Material& material)
-        : coefficient(material.friction), stiffness_ratio(material.stiffness_ratio()) {}
+        : coefficient(material.friction),
+          stiffness_ratio(material.stiffness_ratio()),
+          root_of_ratio(std::sqrt(stiffness_ratio)) {}
 
     /// `spring`: stored force on the first body (updated); `stiffness_before`: normal stiffness one step ago.
-    /// `slip_speed`: velocity of the first body relative to the second, tangential, m/s.
+    /// `slip_speed`: velocity of the first body relative to the second, tangential, m/s. `dashpot`: of the normal direction, kg/s.
     TangentialForce force(Vector& spring, double stiffness_before, double stiffness, const Vector& normal,
-                          const Vector& slip_speed, double normal_force, double damping_scale, double dt) const {
+                          const Vector& slip_speed, double normal_force, double dashpot, double dt) const {
         const double tangential_stiffness = stiffness_ratio * stiffness;
         double dissipated = 0;
-        // The stored force turns with the pair of bodies: into the new tangent plane, at its old length.
         const double before = spring.squaredNorm();
         if (before > 0) {
+            // Into the new tangent plane: the step's turn is small, so the length lost is of second order.
             spring -= spring.dot(normal) * normal;
-            const double turned = spring.squaredNorm();
-            const double energy_before = before / (2 * stiffness_ratio * stiffness_before);
-            if (turned > 0) spring *= std::sqrt(before / turned) * std::min(1.0, stiffness / stiffness_before);
-            dissipated += energy_before - spring.squaredNorm() / (2 * tangential_stiffness);
+            const double inverse = 1 / (stiffness * stiffness_before);
+            const double growth = stiffness * stiffness * inverse;
+            if (growth < 1) spring *= growth;
+            const double per_stiffness = 0.5 * stiffness_before * inverse / stiffness_ratio;  // 1 / (2 k_t)
+            dissipated += (before * growth - spring.squaredNorm()) * per_stiffness;
         }
         spring -= tangential_stiffness * dt * slip_speed;
 
-        const double limit = coefficient * normal_force;
+        const double limit = coefficient * normal_force, limit_squared = limit * limit;
         const double length_squared = spring.squaredNorm();
-        if (length_squared > limit * limit) {  // slides: the spring gives way
+        if (length_squared > limit_squared) {  // slides: the spring gives way, against the force at the limit
             const double length = std::sqrt(length_squared);
-            dissipated += (length - limit) * (length + limit) / (2 * tangential_stiffness);
+            dissipated += limit * (length - limit) / tangential_stiffness;
             spring *= limit / length;
-            return {spring, dissipated};
+            return {Vector::Zero(), dissipated};
         }
         // Sticks: as much of the dashpot as the Coulomb circle allows.
-        const Vector dashpot = -damping_scale * std::sqrt(tangential_stiffness) * slip_speed;
+        const Vector drag = -root_of_ratio * dashpot * slip_speed;
         double share = 1;
-        if ((spring + dashpot).squaredNorm() > limit * limit) {
-            const double a = dashpot.squaredNorm(), b = spring.dot(dashpot), c = length_squared - limit * limit;
-            share = a > 0 ? (-b + std::sqrt(std::max(0.0, b * b - a * c))) / a : 0.0;
+        if ((spring + drag).squaredNorm() > limit_squared) {
+            const double square = drag.squaredNorm(), along = spring.dot(drag), room = limit_squared - length_squared;
+            share = square > 0 ? (std::sqrt(along * along + square * room) - along) / square : 0.0;
         }
-        dissipated -= share * dashpot.dot(slip_speed) * dt;
-        return {spring + share * dashpot, dissipated};
+        return {share * drag, dissipated};
     }
     double ratio() const { return stiffness_ratio; }
     double energy(const Vector& spring, double stiffness) const {

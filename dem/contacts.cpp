@@ -13,10 +13,18 @@ namespace {
 /// Two spheres that overlap, as geometry has it.
 struct Touch {
     std::uint32_t a, b;
-    double overlap;            // m
-    Vector normal;             // from the block to the partner
-    Vector arm_a, arm_b;       // from the bodies' centres to the middle of the contact
+    double overlap;  // m
+    Vector normal;   // from the block to the partner
+    Vector arm;      // from the block's centre to the middle of the contact
 };
+
+/// Centre of the partner seen from that of the block; nothing for bodies that do not move.
+Vector partner_from_block(const Blocks& blocks, const Surroundings& surroundings, const PairList& list, const Pair& pair) {
+    if (!list.is_block(pair.partner)) return Vector(0, 0, 0);
+    Vector offset = blocks.position[pair.partner] - blocks.position[pair.block];
+    offset.y() += pair.image * surroundings.period;
+    return offset;
+}
 
 /// The touching spheres of a pair, in order of candidates, appended to `touches`.
 void find_touches(const Blocks& blocks, const Surroundings& surroundings, const PairList& list, const Pair& pair,
@@ -27,37 +35,36 @@ void find_touches(const Blocks& blocks, const Surroundings& surroundings, const 
     const double radius = 0.5 * shape.diameter;
     const double shift = pair.image * surroundings.period;
 
-    const auto add = [&](const Candidate& candidate, const Vector& arm, const Vector& between, double reach,
-                         double partner_radius, const Vector& partner_from_block) {
-        const double squared = between.squaredNorm();
-        if (squared >= reach * reach) return;
+    const auto add = [&](const Candidate& candidate, const Vector& arm, const Vector& between, double squared, double reach,
+                         double partner_radius) {
         const double distance = std::sqrt(squared);
         const double overlap = reach - distance;
         // Two centres at one place (a user's start) have no normal; up is as good as any.
-        const Vector normal = distance > 0 ? Vector(between / distance) : Vector(0, 0, -1);
-        const Vector arm_a = arm + (radius - overlap * partner_radius / reach) * normal;
-        touches.push_back({candidate.a, candidate.b, overlap, normal, arm_a, arm_a - partner_from_block});
+        const Vector normal = distance > 0 ? Vector(between * (1 / distance)) : Vector(0, 0, -1);
+        touches.push_back({candidate.a, candidate.b, overlap, normal, arm + (radius - overlap * partner_radius / reach) * normal});
     };
 
     if (list.is_block(pair.partner)) {
         const Shape& other = blocks.shape_of(pair.partner);
         const Rotation& other_turn = blocks.rotation[pair.partner];
-        Vector partner_from_block = blocks.position[pair.partner] - centre;
-        partner_from_block.y() += shift;
+        const Vector offset = partner_from_block(blocks, surroundings, list, pair);
         const double reach = radius + 0.5 * other.diameter;
         for (const auto& candidate : pair.candidates) {
             const Vector arm = turn * shape.spheres[candidate.a];
-            const Vector between = partner_from_block + other_turn * other.spheres[candidate.b] - arm;
-            add(candidate, arm, between, reach, 0.5 * other.diameter, partner_from_block);
+            const Vector between = offset + other_turn * other.spheres[candidate.b] - arm;
+            const double squared = between.squaredNorm();
+            if (squared < reach * reach) add(candidate, arm, between, squared, reach, 0.5 * other.diameter);
         }
     } else if (list.is_fixed_spheres(pair.partner)) {
-        const double reach = radius + 0.5 * surroundings.fixed_spheres.diameter();
+        const double partner_radius = 0.5 * surroundings.fixed_spheres.diameter();
+        const double reach = radius + partner_radius;
         Vector origin = centre;
         origin.y() -= shift;
         for (const auto& candidate : pair.candidates) {
             const Vector arm = turn * shape.spheres[candidate.a];
             const Vector between = surroundings.fixed_spheres.centre(candidate.b) - origin - arm;
-            add(candidate, arm, between, reach, 0.5 * surroundings.fixed_spheres.diameter(), Vector::Zero());
+            const double squared = between.squaredNorm();
+            if (squared < reach * reach) add(candidate, arm, between, squared, reach, partner_radius);
         }
     } else {
         const Plane& plane = list.plane(pair.partner);
@@ -66,8 +73,7 @@ void find_touches(const Blocks& blocks, const Surroundings& surroundings, const 
             const Vector arm = turn * shape.spheres[candidate.a];
             const double overlap = radius - height - arm.dot(plane.normal);
             if (overlap <= 0) continue;
-            const Vector arm_a = arm - (radius - 0.5 * overlap) * plane.normal;
-            touches.push_back({candidate.a, candidate.b, overlap, -plane.normal, arm_a, Vector::Zero()});
+            touches.push_back({candidate.a, candidate.b, overlap, -plane.normal, arm - (radius - 0.5 * overlap) * plane.normal});
         }
     }
 }
@@ -100,8 +106,8 @@ class PairwiseContacts final : public ContactModel {
         : law_(law), friction_(friction), damping_ratio_(damping_ratio) {}
 
     void evaluate(const Blocks& blocks, const Surroundings& surroundings, PairList& list,
-                  const std::vector<std::uint32_t>& active, double dt) const override {
-        constexpr std::size_t serial_below = 4000;  // pairs; waking threads costs as much as a few hundred of them
+                  std::span<const std::uint32_t> active, double dt) const override {
+        constexpr std::size_t serial_below = 2000;  // pairs; waking threads costs as much as a few hundred of them
         common::parallel_for(active.size(), serial_below, [&](std::size_t k) {
             evaluate_pair(blocks, surroundings, list, list.pairs()[active[k]], dt);
         });
@@ -137,23 +143,25 @@ class PairwiseContacts final : public ContactModel {
         thread_local std::vector<Touch> touches;
         thread_local std::vector<Contact> now;
         touches.clear();
-        pair.dissipated = 0;
-        pair.largest_overlap = 0;
-        pair.force.setZero();
-        pair.torque_on_block.setZero();
-        pair.torque_on_partner.setZero();
         find_touches(blocks, surroundings, list, pair, touches);
         if (touches.empty()) {
             pair.contacts.clear();
+            pair.dissipated = pair.largest_overlap = 0;
             return;
         }
         const bool partner_is_block = list.is_block(pair.partner);
         const double radius = reduced_radius(blocks, surroundings, list, pair);
-        const double dashpot = damping_scale(reduced_mass(blocks, list, pair), touches.size());
-        const Vector& velocity = blocks.velocity[pair.block];
-        const Vector& spin = blocks.angular_velocity[pair.block];
-        const Vector partner_velocity = partner_is_block ? blocks.velocity[pair.partner] : Vector(0, 0, 0);
-        const Vector partner_spin = partner_is_block ? blocks.angular_velocity[pair.partner] : Vector(0, 0, 0);
+        const double damping = damping_scale(reduced_mass(blocks, list, pair), touches.size());
+        // Velocity of the block relative to the partner at `arm`: v_a - v_b + w_b x offset + (w_a - w_b) x arm.
+        const Vector offset = partner_from_block(blocks, surroundings, list, pair);
+        Vector approach = blocks.velocity[pair.block], spin = blocks.angular_velocity[pair.block];
+        if (partner_is_block) {
+            approach += blocks.angular_velocity[pair.partner].cross(offset) - blocks.velocity[pair.partner];
+            spin -= blocks.angular_velocity[pair.partner];
+        }
+        Vector elastic_force = Vector::Zero(), elastic_torque = Vector::Zero();
+        Vector damping_force = Vector::Zero(), damping_torque = Vector::Zero();
+        double dissipated = 0, largest_overlap = 0;
 
         now.clear();
         auto earlier = pair.contacts.begin();
@@ -169,25 +177,32 @@ class PairwiseContacts final : public ContactModel {
                 stiffness_before = earlier->stiffness;
             }
 
-            const Vector relative =
-                velocity + spin.cross(touch.arm_a) - partner_velocity - partner_spin.cross(touch.arm_b);
+            const Vector relative = approach + spin.cross(touch.arm);
             const double closing_speed = relative.dot(touch.normal);
             const double elastic = law_.force(stiffness, touch.overlap);
+            const double dashpot = damping * std::sqrt(stiffness);
             // No tension: the dashpot never pulls.
-            const double normal_force =
-                std::max(0.0, elastic + dashpot * std::sqrt(stiffness) * closing_speed);
+            const double normal_force = std::max(0.0, elastic + dashpot * closing_speed);
             const Vector slip_speed = relative - closing_speed * touch.normal;
-            const TangentialForce tangential =
-                friction_.force(contact.spring, stiffness_before, stiffness, touch.normal, slip_speed, normal_force,
-                                dashpot, dt);
-            const Vector force = tangential.force - normal_force * touch.normal;
-            pair.force += force;
-            pair.torque_on_block += touch.arm_a.cross(force);
-            pair.torque_on_partner -= touch.arm_b.cross(force);
-            pair.dissipated += (normal_force - elastic) * closing_speed * dt + tangential.dissipated;
-            pair.largest_overlap = std::max(pair.largest_overlap, touch.overlap);
+            const TangentialForce tangential = friction_.force(contact.spring, stiffness_before, stiffness, touch.normal,
+                                                               slip_speed, normal_force, dashpot, dt);
+            const Vector springs = contact.spring - elastic * touch.normal;
+            const Vector dashpots = tangential.dashpot - (normal_force - elastic) * touch.normal;
+            elastic_force += springs;
+            elastic_torque += touch.arm.cross(springs);
+            damping_force += dashpots;
+            damping_torque += touch.arm.cross(dashpots);
+            dissipated += tangential.dissipated;
+            largest_overlap = std::max(largest_overlap, touch.overlap);
             now.push_back(contact);
         }
+        pair.damping_force = damping_force;
+        pair.damping_torque = damping_torque;
+        pair.force = elastic_force + damping_force;
+        pair.torque_on_block = elastic_torque + damping_torque;
+        pair.offset = offset;
+        pair.dissipated = dissipated;
+        pair.largest_overlap = largest_overlap;
         pair.contacts.swap(now);
     }
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "dem/blocks.hpp"
@@ -20,7 +21,7 @@ class ContactModel {
     virtual ~ContactModel() = default;
     /// Forces, torques, dissipation and largest overlap of the given pairs; contact histories go on by `dt`.
     virtual void evaluate(const Blocks& blocks, const Surroundings& surroundings, PairList& list,
-                          const std::vector<std::uint32_t>& active, double dt) const = 0;
+                          std::span<const std::uint32_t> active, double dt) const = 0;
     /// Energy stored in normal and tangential springs at the present poses, J.
     virtual double elastic_energy(const Blocks& blocks, const Surroundings& surroundings, const PairList& list) const = 0;
     /// Tangential over normal stiffness; 0 without friction.

@@ -1,5 +1,6 @@
 #include "dem/loads.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace dem {
@@ -21,8 +22,8 @@ void FluidLoads::sample(Blocks& blocks, double t, double hold) {
     }
 }
 
-void FluidLoads::add(Blocks& blocks, const std::vector<std::uint32_t>& movable, double) {
-    for (const auto i : movable) {
+void FluidLoads::add(Blocks& blocks, const std::vector<std::uint32_t>& wanted, const std::vector<std::uint8_t>&, double) {
+    for (const auto i : wanted) {
         applied_[i] = loads_[i].force_at(blocks.velocity[i]);
         blocks.force[i] += applied_[i];
         blocks.torque[i] += loads_[i].torque;
@@ -38,6 +39,20 @@ void FluidLoads::account(const Blocks& blocks, const std::vector<std::uint32_t>&
     }
 }
 
-void WireLoads::add(Blocks& blocks, const std::vector<std::uint32_t>&, double t) { wires_.pull(blocks, t); }
+void WireLoads::add(Blocks& blocks, const std::vector<std::uint32_t>& wanted, const std::vector<std::uint8_t>& is_wanted,
+                    double t) {
+    // More blocks wanted than are awake: the sums of sleepers too, so all wires.
+    wires_.pull(blocks, t, wanted.size() > awake_count_ ? all_ : active_, is_wanted);
+}
+
+void WireLoads::awake_changed(const std::vector<std::uint8_t>& is_awake) {
+    all_.clear();
+    active_.clear();
+    awake_count_ = static_cast<std::size_t>(std::count(is_awake.begin(), is_awake.end(), 1));
+    for (std::uint32_t k = 0; k < wires_.size(); ++k) {
+        all_.push_back(k);
+        if (is_awake[wires_.block_a[k]] || is_awake[wires_.block_b[k]]) active_.push_back(k);
+    }
+}
 
 }  // namespace dem

@@ -17,8 +17,9 @@ class Load {
     virtual ~Load() = default;
     /// Called now and then (at the flow interval): looks at the surroundings for the time from t to t + hold.
     virtual void sample(Blocks& blocks, double t, double hold) = 0;
-    /// Adds to blocks.force and blocks.torque; every step. `movable`: the blocks whose sums are wanted.
-    virtual void add(Blocks& blocks, const std::vector<std::uint32_t>& movable, double t) = 0;
+    /// Adds to blocks.force and blocks.torque; every step. `wanted`: the blocks whose sums are wanted, also as flags.
+    virtual void add(Blocks& blocks, const std::vector<std::uint32_t>& wanted, const std::vector<std::uint8_t>& is_wanted,
+                     double t) = 0;
     /// After the step: adds up the work done on the blocks.
     virtual void account(const Blocks& blocks, const std::vector<std::uint32_t>& movable, double dt) = 0;
     /// Who is awake has changed.
@@ -31,7 +32,8 @@ class FluidLoads final : public Load {
     FluidLoads(const Blocks& blocks, FluidProperties properties, std::variant<UniformWater, FlowGrid> motion);
 
     void sample(Blocks& blocks, double t, double hold) override;
-    void add(Blocks& blocks, const std::vector<std::uint32_t>& movable, double t) override;
+    void add(Blocks& blocks, const std::vector<std::uint32_t>& wanted, const std::vector<std::uint8_t>& is_wanted,
+             double t) override;
     void account(const Blocks& blocks, const std::vector<std::uint32_t>& movable, double dt) override;
     void awake_changed(const std::vector<std::uint8_t>&) override {}
 
@@ -50,12 +52,15 @@ class WireLoads final : public Load {
  public:
     explicit WireLoads(Wires& wires) : wires_(wires) {}
     void sample(Blocks&, double, double) override {}
-    void add(Blocks& blocks, const std::vector<std::uint32_t>& movable, double t) override;
+    void add(Blocks& blocks, const std::vector<std::uint32_t>& wanted, const std::vector<std::uint8_t>& is_wanted,
+             double t) override;
     void account(const Blocks&, const std::vector<std::uint32_t>&, double) override {}
-    void awake_changed(const std::vector<std::uint8_t>&) override {}
+    void awake_changed(const std::vector<std::uint8_t>& is_awake) override;
 
  private:
     Wires& wires_;
+    std::vector<std::uint32_t> all_, active_;  // wires; those with an end awake
+    std::size_t awake_count_ = 0;
 };
 
 }  // namespace dem

@@ -1,47 +1,65 @@
 #include "dem/motion.hpp"
 
+#include <cmath>
+
 namespace dem {
 
 namespace {
 
-/// Turn about one body axis: the body-frame momentum goes round by the angle it makes in `step`, the orientation follows.
+/// A quaternion in registers, not of unit length.
+struct Turn {
+    double w, v[3];
+};
+
+/// Turn about one body axis: the body-frame momentum goes round by the angle it makes, the orientation follows.
 /// tan(angle/2) is replaced by half the angle: still an exact rotation, and still second order as a splitting.
 template <int axis>
-void turn_about(Quaternion& orientation, Vector& momentum_in_body, double inertia, double step) {
+inline void turn_about(Turn& turn, double (&momentum)[3], double inverse_inertia, double step) {
     constexpr int next = (axis + 1) % 3, last = (axis + 2) % 3;
-    const double half_angle = 0.5 * step * momentum_in_body[axis] / inertia;
+    const double half_angle = 0.5 * step * momentum[axis] * inverse_inertia;
     const double scale = 1 / (1 + half_angle * half_angle);
     const double cosine = (1 - half_angle * half_angle) * scale, sine = 2 * half_angle * scale;
-    const double a = momentum_in_body[next], b = momentum_in_body[last];
-    momentum_in_body[next] = cosine * a + sine * b;
-    momentum_in_body[last] = cosine * b - sine * a;
-    // orientation * (1, half_angle e_axis), not yet of unit length.
-    const auto q = orientation.coeffs();  // x, y, z, w
-    const double w = q[3], p = q[axis], n = q[next], l = q[last];
-    auto& out = orientation.coeffs();
-    out[3] = w - half_angle * p;
-    out[axis] = p + half_angle * w;
-    out[next] = n + half_angle * l;
-    out[last] = l - half_angle * n;
+    const double a = momentum[next], b = momentum[last];
+    momentum[next] = cosine * a + sine * b;
+    momentum[last] = cosine * b - sine * a;
+    // turn * (1, half_angle e_axis)
+    const Turn q = turn;
+    turn.w = q.w - half_angle * q.v[axis];
+    turn.v[axis] = q.v[axis] + half_angle * q.w;
+    turn.v[next] = q.v[next] + half_angle * q.v[last];
+    turn.v[last] = q.v[last] - half_angle * q.v[next];
 }
 
 }  // namespace
 
-void turn_freely(Quaternion& orientation, const Vector& angular_momentum, const Vector& inertia, double step) {
-    Vector in_body = orientation.toRotationMatrix().transpose() * angular_momentum;
-    turn_about<0>(orientation, in_body, inertia[0], 0.5 * step);
-    turn_about<1>(orientation, in_body, inertia[1], 0.5 * step);
-    turn_about<2>(orientation, in_body, inertia[2], step);
-    turn_about<1>(orientation, in_body, inertia[1], 0.5 * step);
-    turn_about<0>(orientation, in_body, inertia[0], 0.5 * step);
-    orientation.normalize();
+void turn_freely(Quaternion& orientation, const Rotation& rotation, const Vector& angular_momentum,
+                 const Vector& inverse_inertia, double step) {
+    // About the angular momentum, with the moment of the first axis: (1, half angle) * orientation.
+    const Vector half = 0.5 * step * inverse_inertia[0] * angular_momentum;
+    const Quaternion& q = orientation;
+    Turn turn{q.w() - half.x() * q.x() - half.y() * q.y() - half.z() * q.z(),
+              {q.x() + half.x() * q.w() + half.y() * q.z() - half.z() * q.y(),
+               q.y() + half.y() * q.w() + half.z() * q.x() - half.x() * q.z(),
+               q.z() + half.z() * q.w() + half.x() * q.y() - half.y() * q.x()}};
+    // The rest of the energy: (1/I_k - 1/I_1) l_k^2 / 2 for the other two axes.
+    const double second = inverse_inertia[1] - inverse_inertia[0], third = inverse_inertia[2] - inverse_inertia[0];
+    const Vector in_body = rotation.transpose() * angular_momentum;
+    double momentum[3] = {in_body.x(), in_body.y(), in_body.z()};
+    if (second != 0) turn_about<1>(turn, momentum, second, 0.5 * step);
+    if (third != 0) turn_about<2>(turn, momentum, third, step);
+    if (second != 0) turn_about<1>(turn, momentum, second, 0.5 * step);
+    const double scale = 1 / std::sqrt(turn.w * turn.w + turn.v[0] * turn.v[0] + turn.v[1] * turn.v[1] + turn.v[2] * turn.v[2]);
+    orientation = Quaternion(scale * turn.w, scale * turn.v[0], scale * turn.v[1], scale * turn.v[2]);
 }
 
 void drift(Blocks& blocks, std::size_t block, double step) {
     blocks.position[block] += step * blocks.velocity[block];
-    turn_freely(blocks.orientation[block], blocks.angular_momentum[block], blocks.inertia(block), step);
+    const Vector inverse_inertia = blocks.shape_of(block).inverse_inertia / blocks.mass_ratio[block];
+    turn_freely(blocks.orientation[block], blocks.rotation[block], blocks.angular_momentum[block], inverse_inertia, step);
     blocks.rotation[block] = blocks.orientation[block].toRotationMatrix();
-    blocks.update_angular_velocity(block);
+    const Rotation& turn = blocks.rotation[block];
+    blocks.angular_velocity[block] =
+        turn * inverse_inertia.cwiseProduct(turn.transpose() * blocks.angular_momentum[block]);
 }
 
 }  // namespace dem

@@ -38,34 +38,33 @@ void PairList::rebuild() {
     find_pairs();
     narrow_position_ = blocks_.position;
     narrow_orientation_ = blocks_.orientation;
-    for (auto& pair : pairs_) find_candidates(pair);
+    for (std::size_t k = 0; k < pairs_.size(); ++k) refresh(k);
 }
 
-double PairList::moved_since(std::size_t block, const std::vector<Vector>& position,
-                             const std::vector<Quaternion>& orientation) const {
-    // The farthest point goes at most |dx| + 2 R sin(angle/2), and |vec(q0* q)| is sin(angle/2).
-    const double turned = (orientation[block].conjugate() * blocks_.orientation[block]).vec().norm();
-    return (blocks_.position[block] - position[block]).norm() + 2 * blocks_.shape_of(block).radius * turned;
+bool PairList::refresh(std::size_t index) {
+    Pair& pair = pairs_[index];
+    find_candidates(pair);
+    const std::uint8_t has_candidates = !pair.candidates.empty();
+    if (!has_candidates) pair.contacts.clear();
+    const bool changed = has_candidates != keys_[index].has_candidates;
+    keys_[index].has_candidates = has_candidates;
+    return changed;
 }
 
-bool PairList::update(const std::vector<std::uint32_t>& awake) {
+bool PairList::update() {
     // A candidate pair is found when one of its blocks is refreshed; the other may then be a third of the skin away from
     // its own reference and go another third on the far side of it: together never more than the skin.
-    stale_.clear();
-    bool all = false;
-    for (const auto block : awake) {
-        if (moved_since(block, narrow_position_, narrow_orientation_) <= skin_ / 3) continue;
-        stale_.push_back(block);
-        if (moved_since(block, wide_position_, wide_orientation_) > wide_skin_ / 2) all = true;
-    }
     if (stale_.empty()) return false;
-    if (all) find_pairs();
+    bool changed = false;
+    for (const auto block : stale_)
+        if (moved_since(block, wide_position_, wide_orientation_) > wide_skin_ / 2) changed = true;
+    if (changed) find_pairs();
     for (const auto block : stale_) {
         narrow_position_[block] = blocks_.position[block];
         narrow_orientation_[block] = blocks_.orientation[block];
-        for (const auto entry : pairs_of(block)) find_candidates(pairs_[entry >> 1]);
+        for (const auto entry : pairs_of(block)) changed = refresh(entry >> 1) || changed;
     }
-    return all;
+    return changed;
 }
 
 void PairList::find_pairs() {
@@ -145,6 +144,8 @@ void PairList::find_pairs() {
             stale_.push_back(pair.block);
     }
     pairs_ = std::move(found);
+    keys_.clear();
+    for (const auto& pair : pairs_) keys_.push_back({pair.block, pair.partner, !pair.candidates.empty()});
     std::sort(stale_.begin(), stale_.end());
     stale_.erase(std::unique(stale_.begin(), stale_.end()), stale_.end());
     wide_position_ = blocks_.position;
@@ -220,7 +221,7 @@ void PairList::restore(const std::vector<Pair>& saved) {
         place->contacts = pair.contacts;
         place->force = pair.force;
         place->torque_on_block = pair.torque_on_block;
-        place->torque_on_partner = pair.torque_on_partner;
+        place->offset = pair.offset;
     }
 }
 

@@ -37,8 +37,11 @@ struct Pair {
     // Results of the last force pass.
     Vector force{0, 0, 0};             ///< on the block, N; the partner feels the opposite
     Vector torque_on_block{0, 0, 0};   ///< N m, about the block's centre
-    Vector torque_on_partner{0, 0, 0}; ///< N m, about the partner's centre
-    double dissipated = 0;             ///< J in that step
+    Vector offset{0, 0, 0};            ///< from the block's centre to the partner's, m: the torque on the partner
+                                       ///< is offset x force - torque_on_block
+    Vector damping_force{0, 0, 0};     ///< the dashpots' part of the force, N
+    Vector damping_torque{0, 0, 0};    ///< and of the torque on the block, N m
+    double dissipated = 0;             ///< by sliding springs in that step, J
     double largest_overlap = 0;        ///< m
 };
 
@@ -54,9 +57,21 @@ class PairList {
     /// `skin`: of the sphere pairs, m.
     PairList(const Blocks& blocks, const Surroundings& surroundings, double skin);
 
-    /// Finds again what has become out of date. `awake`: blocks that may have moved.
-    /// Returns true when the pairs of bodies changed, so that indices into pairs() are no longer valid.
-    bool update(const std::vector<std::uint32_t>& awake);
+    /// Before blocks move; then note_motion() for each that may have moved, then update().
+    void begin_update() { stale_.clear(); }
+    void note_motion(std::uint32_t block) {
+        if (moved_since(block, narrow_position_, narrow_orientation_) > skin_ / 3) stale_.push_back(block);
+    }
+    /// Finds again what has become out of date.
+    /// Returns true when pairs came or went, or got their first candidates or lost their last.
+    bool update();
+
+    /// What needs to be known of every pair to see whether it must be evaluated.
+    struct Key {
+        std::uint32_t block, partner;
+        std::uint8_t has_candidates;
+    };
+    const std::vector<Key>& keys() const { return keys_; }
 
     std::vector<Pair>& pairs() { return pairs_; }
     const std::vector<Pair>& pairs() const { return pairs_; }
@@ -80,15 +95,21 @@ class PairList {
  private:
     void find_pairs();
     void find_candidates(Pair& pair);
+    bool refresh(std::size_t pair);
     void find_block_candidates(Pair& pair);
     void find_incidence();
+    /// The farthest point goes at most |dx| + 2 R sin(angle/2), and |vec(q0* q)| is sin(angle/2).
     double moved_since(std::size_t block, const std::vector<Vector>& position,
-                       const std::vector<Quaternion>& orientation) const;
+                       const std::vector<Quaternion>& orientation) const {
+        const double turned = (orientation[block].conjugate() * blocks_.orientation[block]).vec().norm();
+        return (blocks_.position[block] - position[block]).norm() + 2 * blocks_.shape_of(block).radius * turned;
+    }
 
     const Blocks& blocks_;
     const Surroundings& surroundings_;
     double skin_, wide_skin_;
     std::vector<Pair> pairs_;
+    std::vector<Key> keys_;  // in step with pairs_
     std::vector<std::uint32_t> incidence_, incidence_begin_;
     std::vector<Vector> narrow_position_, wide_position_;
     std::vector<Quaternion> narrow_orientation_, wide_orientation_;

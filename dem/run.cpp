@@ -160,6 +160,7 @@ void pack(const common::StageCommand& command, const common::SceneFile& file, co
         Snapshot snapshot = take_snapshot(*simulation, packed, placement_digest(scene.placed, scene.surroundings));
         snapshot.is_packing = true;
         report.look(*simulation);
+        report.look(*simulation);
         folder.publish(output.take(0), to_data_file(snapshot));
         report.window_done(*simulation, placed, 1);
     } catch (const std::exception& error) {

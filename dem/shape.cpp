@@ -78,6 +78,10 @@ Shape make_shape(const ShapeDescription& description, const Element& element, do
     const Rotation turn = shape.body_from_file.toRotationMatrix();
     shape.inertia = (turn * inertia * turn.transpose()).diagonal();
     if (shape.inertia.minCoeff() <= 0) throw std::invalid_argument("the inertia of a shape must be positive");
+    // Moments that differ by rounding only are equal: motion.cpp then has less to do.
+    for (const auto& [k, l] : {std::pair{0, 1}, {0, 2}, {1, 2}})
+        if (std::abs(shape.inertia[k] - shape.inertia[l]) < 1e-12 * shape.inertia[k]) shape.inertia[l] = shape.inertia[k];
+    shape.inverse_inertia = shape.inertia.cwiseInverse();
     shape.low = Vector::Constant(1e300);
     shape.high = -shape.low;
     shape.radius = 0;

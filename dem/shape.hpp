@@ -29,6 +29,7 @@ struct Shape {
     double elements_per_sphere;    ///< elements of the paper each sphere stands for
     double mass;                   ///< dry, kg
     Vector inertia;                ///< dry, principal, kg m^2
+    Vector inverse_inertia;        ///< reciprocals of the above
     double displaced_volume;       ///< water displaced by the whole shape, m^3
     Quaternion body_from_file;     ///< turns the file's axes into the body frame
     Vector low, high;              ///< box around the sphere centres in the body frame, m

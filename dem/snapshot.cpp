@@ -83,7 +83,7 @@ void store_contacts(const std::vector<Pair>& pairs, DataFile& file) {
         for (const auto number : {pair.block, pair.partner}) bodies.push_back(static_cast<std::int32_t>(number));
         bodies.push_back(pair.image);
         bodies.push_back(static_cast<std::int32_t>(pair.contacts.size()));
-        for (const Vector& sum : {pair.force, pair.torque_on_block, pair.torque_on_partner})
+        for (const Vector& sum : {pair.force, pair.torque_on_block, pair.offset})
             sums.insert(sums.end(), sum.data(), sum.data() + 3);
         for (const auto& contact : pair.contacts) {
             spheres.push_back(static_cast<std::int32_t>(contact.a));
@@ -94,7 +94,7 @@ void store_contacts(const std::vector<Pair>& pairs, DataFile& file) {
     }
     const std::size_t contacts = spheres.size() / 2;
     file.datasets["/contacts/bodies"] = integer32("-", {pairs.size(), 4}, std::move(bodies));
-    file.datasets["/contacts/sums"] = real64("N, N m", {pairs.size(), 9}, std::move(sums));
+    file.datasets["/contacts/sums"] = real64("N, N m, m", {pairs.size(), 9}, std::move(sums));
     file.datasets["/contacts/spheres"] = integer32("-", {contacts, 2}, std::move(spheres));
     file.datasets["/contacts/springs"] = real64("N/m, N", {contacts, 4}, std::move(springs));
 }
@@ -113,7 +113,7 @@ std::vector<Pair> contacts_from(const DataFile& file) {
         pair.image = bodies[4 * k + 2];
         pair.force = Vector(sums.data() + 9 * k);
         pair.torque_on_block = Vector(sums.data() + 9 * k + 3);
-        pair.torque_on_partner = Vector(sums.data() + 9 * k + 6);
+        pair.offset = Vector(sums.data() + 9 * k + 6);
         for (std::int32_t c = 0; c < bodies[4 * k + 3]; ++c, ++next)
             pair.contacts.push_back({static_cast<std::uint32_t>(spheres.at(2 * next)), static_cast<std::uint32_t>(spheres.at(2 * next + 1)),
                                      springs.at(4 * next), Vector(springs.data() + 4 * next + 1)});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "common/errors.hpp"
 #include "dem/motion.hpp"
@@ -20,6 +21,8 @@ Simulation::Simulation(Blocks placed, Surroundings surroundings, std::unique_ptr
       pair_list_(blocks, surroundings_, rules.skin) {
     for (std::uint32_t i = 0; i < blocks.size(); ++i)
         if (!blocks.is_fixed[i]) movable_.push_back(i);
+    damping_force_.assign(blocks.size(), Vector::Zero());
+    damping_torque_.assign(blocks.size(), Vector::Zero());
     find_awake();
 }
 
@@ -32,6 +35,7 @@ void Simulation::add_water(FluidProperties properties, std::variant<UniformWater
 void Simulation::mount_wires(Wires mounted) {
     wires = std::move(mounted);
     loads_.push_back(std::make_unique<WireLoads>(wires));
+    loads_.back()->awake_changed(is_awake_);
 }
 
 void Simulation::add_sleeping(const SleepRules& rules) {
@@ -44,8 +48,9 @@ void Simulation::add_sleeping(const SleepRules& rules) {
 void Simulation::start(double t) {
     time_ = t;
     for (const auto& load : loads_) load->sample(blocks, t, 0);
+    // Contacts as they are: a step of no length leaves their histories alone.
     contact_model_->evaluate(blocks, surroundings_, pair_list_, active_, 0);
-    sum_forces(movable_);
+    sum_all_forces();
     if (sleeping_) sleeping_->wake_all(blocks, t);
     find_awake();
 }
@@ -68,7 +73,7 @@ void Simulation::advance(double target) {
             const double hold = dt * static_cast<double>(std::min(every, count - k));
             for (const auto& load : loads_) load->sample(blocks, begin + dt * static_cast<double>(k), hold);
             if (sleeping_) {
-                sum_forces(movable_);  // those asleep too; contacts are those of the last step
+                sum_all_forces();  // of those asleep too; contacts are those of the last step
                 bool changed = false;
                 dissipated_ += sleeping_->look(blocks, time_, changed);
                 if (changed) find_awake();
@@ -86,59 +91,86 @@ void Simulation::advance(double target) {
 }
 
 void Simulation::step(double dt, double t) {
+    pair_list_.begin_update();
     for (const auto i : awake_) {
         kick_half(blocks, i, 0.5 * dt);
         drift(blocks, i, dt);
+        pair_list_.note_motion(i);
     }
     time_ = t;
-    if (pair_list_.update(awake_)) find_active();
-    contact_model_->evaluate(blocks, surroundings_, pair_list_, active_, dt);
-    sum_forces(awake_);
-    check_overlaps();
-    for (const auto i : awake_) kick_half(blocks, i, 0.5 * dt);
+    if (pair_list_.update()) find_active();
+    sum_forces(awake_, is_awake_, active_, dt);
+    double damping_power = 0;
+    for (const auto i : awake_) {
+        kick_half(blocks, i, 0.5 * dt);
+        blocks.update_angular_velocity(i);
+        // The mean velocity of the two kicks around this instant makes this the very energy that the dashpots take.
+        damping_power += damping_force_[i].dot(blocks.velocity[i]) + damping_torque_[i].dot(blocks.angular_velocity[i]);
+    }
+    dissipated_ -= dt * damping_power;
     for (const auto& load : loads_) load->account(blocks, awake_, dt);
     ++steps_;
     awake_block_steps_ += awake_.size();
 }
 
-void Simulation::sum_forces(const std::vector<std::uint32_t>& of) {
+void Simulation::sum_forces(const std::vector<std::uint32_t>& of, const std::vector<std::uint8_t>& is_wanted,
+                            const std::vector<std::uint32_t>& pairs_to_add, double dt) {
     for (const auto i : of) {
         blocks.force[i] = blocks.shape_of(i).mass * gravity_;  // (11), dry part: buoyancy comes with the water
         blocks.torque[i].setZero();
+        damping_force_[i].setZero();
+        damping_torque_[i].setZero();
     }
-    for (const auto& load : loads_) load->add(blocks, of, time_);
-    const auto& pairs = pair_list_.pairs();
-    for (const auto i : of)
-        for (const auto entry : pair_list_.pairs_of(i)) {
-            const Pair& pair = pairs[entry >> 1];
+    for (const auto& load : loads_) load->add(blocks, of, is_wanted, time_);
+    // Pairs in their order: every block adds its own up in the same order, whoever is listed and however many threads run.
+    // In portions that stay in the cache between their evaluation and their adding up.
+    constexpr std::size_t portion = 4096;
+    for (std::size_t from = 0; from < pairs_to_add.size(); from += portion) {
+        const std::span<const std::uint32_t> some(pairs_to_add.data() + from, std::min(portion, pairs_to_add.size() - from));
+        if (dt > 0) contact_model_->evaluate(blocks, surroundings_, pair_list_, some, dt);
+        for (const auto k : some) {
+            const Pair& pair = pair_list_.pairs()[k];
             if (pair.contacts.empty()) continue;
-            if (entry & 1) {
-                blocks.force[i] -= pair.force;
-                blocks.torque[i] += pair.torque_on_partner;
-            } else {
-                blocks.force[i] += pair.force;
-                blocks.torque[i] += pair.torque_on_block;
+            if (is_wanted[pair.block]) {
+                blocks.force[pair.block] += pair.force;
+                blocks.torque[pair.block] += pair.torque_on_block;
+                damping_force_[pair.block] += pair.damping_force;
+                damping_torque_[pair.block] += pair.damping_torque;
+            }
+            if (pair_list_.is_block(pair.partner) && is_wanted[pair.partner]) {
+                blocks.force[pair.partner] -= pair.force;
+                blocks.torque[pair.partner] += pair.offset.cross(pair.force) - pair.torque_on_block;
+                damping_force_[pair.partner] -= pair.damping_force;
+                damping_torque_[pair.partner] += pair.offset.cross(pair.damping_force) - pair.damping_torque;
+            }
+            if (dt > 0) {
+                dissipated_ += pair.dissipated;
+                if (pair.largest_overlap > rules_.overlap_noted || pair.largest_overlap > largest_overlap_) note_overlap(pair);
             }
         }
+    }
 }
 
-void Simulation::check_overlaps() {
-    for (const auto k : active_) {
-        const Pair& pair = pair_list_.pairs()[k];
-        dissipated_ += pair.dissipated;
-        if (pair.largest_overlap <= largest_overlap_ && pair.largest_overlap <= rules_.overlap_noted) continue;
-        largest_overlap_ = std::max(largest_overlap_, pair.largest_overlap);
-        if (pair.largest_overlap > rules_.overlap_noted) ++deep_contact_steps_;
-        if (pair.largest_overlap > rules_.overlap_limit)
-            throw common::RunError(fmt::format(
-                "t = {:.5f} s: block {} is {:.2g} m deep in {}, past the limit of {:.2g} m; a shorter dem.time_step or stiffer "
-                "spheres are needed",
-                time_, pair.block + 1, pair.largest_overlap,
-                pair_list_.is_block(pair.partner)           ? fmt::format("block {}", pair.partner + 1)
-                : pair_list_.is_fixed_spheres(pair.partner) ? std::string("the fixed spheres")
-                                                            : std::string("a plane"),
-                rules_.overlap_limit));
-    }
+void Simulation::sum_all_forces() {
+    std::vector<std::uint32_t> all(pair_list_.pairs().size());
+    std::iota(all.begin(), all.end(), 0u);
+    std::vector<std::uint8_t> is_movable(blocks.size(), 0);
+    for (const auto i : movable_) is_movable[i] = 1;
+    sum_forces(movable_, is_movable, all, 0);
+}
+
+void Simulation::note_overlap(const Pair& pair) {
+    largest_overlap_ = std::max(largest_overlap_, pair.largest_overlap);
+    if (pair.largest_overlap > rules_.overlap_noted) ++deep_contact_steps_;
+    if (pair.largest_overlap > rules_.overlap_limit)
+        throw common::RunError(fmt::format(
+            "t = {:.5f} s: block {} is {:.2g} m deep in {}, past the limit of {:.2g} m; a shorter dem.time_step or stiffer "
+            "spheres are needed",
+            time_, pair.block + 1, pair.largest_overlap,
+            pair_list_.is_block(pair.partner)           ? fmt::format("block {}", pair.partner + 1)
+            : pair_list_.is_fixed_spheres(pair.partner) ? std::string("the fixed spheres")
+                                                        : std::string("a plane"),
+            rules_.overlap_limit));
 }
 
 void Simulation::check_values() const {
@@ -150,20 +182,23 @@ void Simulation::check_values() const {
 
 void Simulation::find_awake() {
     awake_.clear();
-    for (const auto i : movable_)
-        if (!sleeping_ || !sleeping_->is_asleep(i)) awake_.push_back(i);
+    is_awake_.assign(blocks.size(), 0);
+    for (const auto i : movable_) {
+        if (sleeping_ && sleeping_->is_asleep(i)) continue;
+        awake_.push_back(i);
+        is_awake_[i] = 1;
+    }
+    for (const auto& load : loads_) load->awake_changed(is_awake_);
     find_active();
 }
 
 void Simulation::find_active() {
     active_.clear();
-    const auto moves = [&](std::uint32_t block) {
-        return !blocks.is_fixed[block] && !(sleeping_ && sleeping_->is_asleep(block));
-    };
-    const auto& pairs = pair_list_.pairs();
-    for (std::uint32_t k = 0; k < pairs.size(); ++k)
-        if (moves(pairs[k].block) || (pair_list_.is_block(pairs[k].partner) && moves(pairs[k].partner)))
-            active_.push_back(k);
+    for (std::uint32_t k = 0; k < pair_list_.keys().size(); ++k) {
+        const PairList::Key& key = pair_list_.keys()[k];
+        if (!key.has_candidates) continue;
+        if (is_awake_[key.block] || (pair_list_.is_block(key.partner) && is_awake_[key.partner])) active_.push_back(k);
+    }
 }
 
 EnergyBudget Simulation::energy() const {

@@ -84,8 +84,10 @@ class Simulation {
 
  private:
     void step(double dt, double t);
-    void sum_forces(const std::vector<std::uint32_t>& of);
-    void check_overlaps();
+    void sum_forces(const std::vector<std::uint32_t>& of, const std::vector<std::uint8_t>& is_wanted,
+                    const std::vector<std::uint32_t>& pairs_to_add, double dt);
+    void sum_all_forces();
+    void note_overlap(const Pair& pair);
     void check_values() const;
     void find_awake();
     void find_active();
@@ -98,7 +100,10 @@ class Simulation {
     std::vector<std::unique_ptr<Load>> loads_;
     FluidLoads* water_ = nullptr;
     std::unique_ptr<Sleeping> sleeping_;
-    std::vector<std::uint32_t> movable_, awake_, active_;
+    std::vector<std::uint32_t> movable_, awake_;  ///< blocks
+    std::vector<std::uint8_t> is_awake_;
+    std::vector<Vector> damping_force_, damping_torque_;  ///< the dashpots' share of the sums
+    std::vector<std::uint32_t> active_;  ///< pairs that may touch, with a block awake
     double time_ = 0, dissipated_ = 0, largest_overlap_ = 0;
     std::uint64_t steps_ = 0, awake_block_steps_ = 0, deep_contact_steps_ = 0;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace dem {
 
@@ -40,7 +41,14 @@ double Wires::length(const Blocks& blocks, std::size_t wire) const {
 }
 
 void Wires::pull(Blocks& blocks, double t) {
-    for (std::size_t k = 0; k < size(); ++k) {
+    std::vector<std::uint32_t> all(size());
+    std::iota(all.begin(), all.end(), 0u);
+    pull(blocks, t, all, std::vector<std::uint8_t>(blocks.size(), 1));
+}
+
+void Wires::pull(Blocks& blocks, double t, const std::vector<std::uint32_t>& which,
+                 const std::vector<std::uint8_t>& is_wanted) {
+    for (const std::size_t k : which) {
         if (!is_intact[k]) continue;
         const std::uint32_t a = block_a[k], b = block_b[k];
         const Vector arm_a = blocks.arm(a, sphere_a[k]), arm_b = blocks.arm(b, sphere_b[k]);
@@ -60,10 +68,14 @@ void Wires::pull(Blocks& blocks, double t) {
         tension[k] = tension_at(k, r);  // (13)
         largest_tension[k] = std::max(largest_tension[k], tension[k]);
         const Vector force = tension[k] / r * between;
-        blocks.force[a] += force;
-        blocks.torque[a] += arm_a.cross(force);
-        blocks.force[b] -= force;
-        blocks.torque[b] -= arm_b.cross(force);
+        if (is_wanted[a]) {
+            blocks.force[a] += force;
+            blocks.torque[a] += arm_a.cross(force);
+        }
+        if (is_wanted[b]) {
+            blocks.force[b] -= force;
+            blocks.torque[b] -= arm_b.cross(force);
+        }
     }
 }
 

@@ -31,8 +31,10 @@ struct Wires {
     std::size_t size() const { return block_a.size(); }
     void add(std::uint32_t a, std::uint32_t sphere_of_a, std::uint32_t b, std::uint32_t sphere_of_b, double r0,
              double k_n);
-    /// Adds forces and torques of intact wires to blocks.force and blocks.torque, in order of wires; breaks those
-    /// longer than r0 + psi d at time t.
+    /// Adds forces and torques of the intact ones among `which` to those blocks that are wanted, in order of wires; breaks
+    /// those longer than r0 + psi d at time t.
+    void pull(Blocks& blocks, double t, const std::vector<std::uint32_t>& which, const std::vector<std::uint8_t>& is_wanted);
+    /// The same for all wires and blocks.
     void pull(Blocks& blocks, double t);
     /// Elastic energy of the intact ones at their present length, J.
     double elastic_energy(const Blocks& blocks) const;
