@@ -95,12 +95,16 @@ Simulation::Simulation(const Scene& scene, WaveField* waves, double start)
     for (const common::Gauge& gauge : scene_.gauges)
         if (gauge.x >= scene_.offshore && gauge.x <= x1) gauges_.push_back(gauge);
     gauge_series_.resize(gauges_.size());
+    initial_energy_ = energy();
     if (scene_.water.empty())
         initial_volume_ = volume_by_surface(field_->particles, solid_, scene_.settings.spacing, scene_.offshore, end_of_water(scene_, solid_), lowest_bottom(scene_));
 }
 
 void Simulation::compose_effects(double) {
     auto& effects = field_->effects;
+    auto containment = std::make_unique<Containment>(solid_);
+    containment_ = containment.get();
+    effects.push_back(std::move(containment));
     if (scene_.drive == Drive::waves) {
         auto wall = std::make_unique<MovingWall>(scene_.offshore, [this](double time, double step, double x) {
             waves_->go_to(time + 0.5 * step);
@@ -281,8 +285,29 @@ void Simulation::record_gauge(const common::Gauge& gauge, Series& series) {
     }
 }
 
-/// Volume by the surface profile against the particles that are in the water: what compression or voids have cost.
+/// Kinetic and potential energy of the water, J per m of width.
+double Simulation::energy() const {
+    const Particles& particles = field_->particles;
+    const Settings& settings = scene_.settings;
+    double sum = 0;
+    for (std::size_t i = particles.first_fluid(); i < particles.size(); ++i)
+        sum += 0.5 * (particles.u[i] * particles.u[i] + particles.w[i] * particles.w[i]) -
+               settings.gravity_x * particles.x[i] - settings.gravity_z * particles.z[i];
+    return settings.pressure.density * settings.spacing * settings.spacing * sum;
+}
+
+/// Energy, leaks, and volume by the surface profile against the particles that are in the water: what compression or voids have cost.
 void Simulation::record_invariants() {
+    const Particles& particles = field_->particles;
+    in_solid_ = 0;
+    for (std::size_t i = particles.first_fluid(); i < particles.size(); ++i)
+        in_solid_ += solid_.contains(particles.x[i], particles.z[i]);
+    // over the potential energy of the water standing at its depth
+    const Settings& settings = scene_.settings;
+    const double scale = 0.5 * settings.pressure.density * 9.81 * settings.depth * settings.spacing * settings.spacing *
+                         static_cast<double>(initial_fluid_);
+    energy_gain_ = (energy() - initial_energy_) / scale;
+    largest_energy_gain_ = std::max(largest_energy_gain_, energy_gain_);
     if (initial_volume_ <= 0) return;
     const double l0 = scene_.settings.spacing, from = wall_ ? wall_->position() : scene_.offshore;
     const double volume = volume_by_surface(field_->particles, solid_, l0, from, end_of_water(scene_, solid_), lowest_bottom(scene_));
@@ -309,7 +334,8 @@ common::DataFile Simulation::state() const {
     data["/particles/identity"] = common::integer32("-", {n}, particles.identity);
     data["/particles/body"] = common::integer32("-", {n}, particles.body);
     data["/step"] = common::real64("-", {2}, field_->step_state());
-    data["/run"] = common::real64("-", {4}, {start_, static_cast<double>(initial_fluid_), initial_volume_, largest_volume_drift_});
+    data["/run"] = common::real64("-", {6}, {start_, static_cast<double>(initial_fluid_), initial_volume_, largest_volume_drift_,
+                                                           initial_energy_, largest_energy_gain_});
     for (std::size_t e = 0; e < field_->effects.size(); ++e) {
         const auto values = field_->effects[e]->state();
         if (!values.empty()) data[fmt::format("/effects/{}", e)] = common::real64("-", {values.size()}, values);
@@ -332,6 +358,7 @@ void Simulation::restore(const common::DataFile& state) {
     field_->restore_step_state(state.at("/step").doubles());
     const auto& run = state.at("/run").doubles();
     initial_fluid_ = static_cast<std::size_t>(run[1]), initial_volume_ = run[2], largest_volume_drift_ = run[3];
+    initial_energy_ = run[4], largest_energy_gain_ = run[5];
     for (std::size_t e = 0; e < field_->effects.size(); ++e) {
         const std::string name = fmt::format("/effects/{}", e);
         if (state.has(name)) field_->effects[e]->restore(state.at(name).doubles());
@@ -362,6 +389,11 @@ void Simulation::describe(common::RunRecord& record) const {
         record.set_invariant({"mass_drift", volume_drift_, "-", 0.02});
         record.set_invariant({"largest_mass_drift", largest_volume_drift_, "-", infinity});
     }
+    // nothing does work on the water where no wall moves and gravity is constant
+    const bool is_closed = scene_.drive == Drive::none && scene_.gravity_file.empty();
+    record.set_invariant({"energy_gain", energy_gain_, "of rho g h / 2", is_closed ? 0.02 : infinity});
+    record.set_invariant({"largest_energy_gain", largest_energy_gain_, "of rho g h / 2", infinity});
+    record.set_invariant({"particles_in_solid", static_cast<double>(in_solid_), "particles", 0.5});
     record.set_invariant({"unconverged_solves", static_cast<double>(field.counts.unconverged), "-", infinity});
     const double count = static_cast<double>(field.particles.size()), steps = static_cast<double>(field.counts.steps);
     record.set_figure("particles.fluid", static_cast<double>(field.particles.fluid));
@@ -370,6 +402,7 @@ void Simulation::describe(common::RunRecord& record) const {
         record.set_figure("particles.waiting", static_cast<double>(waiting));
         record.set_figure("particles.passed_wall", static_cast<double>(overflow_->passed()));
     }
+    record.set_figure("particles.returned_from_solid", static_cast<double>(containment_->returned()));
     record.set_figure("particles.overtopped", static_cast<double>(collected));
     record.set_figure("overtopped_volume", static_cast<double>(collected) * scene_.settings.spacing * scene_.settings.spacing);
     record.set_figure("start_time", start_);

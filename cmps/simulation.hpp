@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cmps/effects/containment.hpp"
 #include "cmps/effects/moving_wall.hpp"
 #include "cmps/effects/overtopping_basin.hpp"
 #include "cmps/effects/wall_overflow.hpp"
@@ -53,18 +54,22 @@ class Simulation {
     void record_particles(Series& series);
     void record_gauge(const common::Gauge& gauge, Series& series);
     void record_invariants();
+    double energy() const;
 
     Scene scene_;
     Solid solid_;
     WaveField* waves_;
     std::unique_ptr<NearField> field_;
     std::optional<FlowGrid> flow_;
+    Containment* containment_ = nullptr;    // owned by field_->effects
     MovingWall* wall_ = nullptr;            // owned by field_->effects
     OvertoppingBasin* basin_ = nullptr;     // owned by field_->effects
     WallOverflow* overflow_ = nullptr;      // owned by field_->effects
     double time_ = 0, start_ = 0;
     std::size_t initial_fluid_ = 0;
     double initial_volume_ = 0, largest_volume_drift_ = 0, volume_drift_ = 0;
+    double initial_energy_ = 0, energy_gain_ = 0, largest_energy_gain_ = 0;
+    std::size_t in_solid_ = 0;
     std::vector<common::Gauge> gauges_;
 
     Series flow_series_, particle_series_, force_series_;

@@ -1,0 +1,216 @@
+"""Hard cases of cmps through the program: each with an invariant and its bound, each prints its figure.
+
+By default in short form; TSUNAGI_LONG=1 runs the full durations (about an hour).
+"""
+import os
+
+import numpy as np
+
+from cmps_program import FOLDER, Run, expect, finish
+from cmps_waves import write_waves
+
+LONG = os.environ.get("TSUNAGI_LONG") == "1"
+
+
+def tank(end, box, water, spacing, more="", head=""):
+    return f"""
+title = "tank"
+[time]
+end = {end}
+window = {min(end, 1.0)}
+{head}
+[cmps]
+drive = "none"
+tank = {box}
+water = {water}
+particle_spacing = {spacing}
+{more}
+"""
+
+
+def rectangle(x0, x1, z0, z1):
+    return f"[[[{x0}, {z0}], [{x1}, {z0}], [{x1}, {z1}], [{x0}, {z1}]]]"
+
+
+def sound(run, name):
+    """What every run must hold: done, no particle lost or in the solid."""
+    expect(run.status == 0, f"{name}: exit {run.status} {run.messages.strip()}")
+    if run.status != 0:
+        return False
+    expect(run.invariant("particle_ledger") == 0, f"{name}: particle ledger {run.invariant('particle_ledger'):.0f} (exact)")
+    expect(run.invariant("particles_in_solid") == 0, f"{name}: particles in the solid {run.invariant('particles_in_solid'):.0f}")
+    return True
+
+
+def still_water():
+    duration = 60.0 if LONG else 6.0
+    gauges = '[gauges]\nlevel = 0.2\nfloor = {x = 0.2, z = 0.0, kind = "pressure", interval = 0.01}'
+    run = Run("still", tank(duration, [0, 0.4, 0, 0.5], rectangle(0, 0.4, 0, 0.3), 0.015, head=gauges))
+    if not sound(run, f"still water {duration:g} s"):
+        return
+    t, level = run.gauge("level")
+    _, pressure = run.gauge("floor", "pressure")
+    late = pressure[len(pressure) // 2:] / (1000 * 9.81 * (0.3 + 0.0075))
+    drift = (np.mean(level[-50:]) - np.mean(level[:50])) / 0.3
+    expect(abs(drift) < 0.02, f"still water: level drift {drift:+.4f} (bound 0.02)")
+    expect(abs(np.mean(late) - 1) < 0.02, f"still water: floor pressure {np.mean(late):.4f} rho g h (bound 2 %)")
+    expect(np.std(late) < 0.01, f"still water: noise {np.std(late):.4f} rho g h (bound 0.01)")
+    expect(run.invariant("largest_energy_gain") < 0.005, f"still water: energy gain {run.invariant('largest_energy_gain'):.5f} (bound 0.005)")
+
+
+def dam_break():
+    run = Run("dam", tank(3.0 if LONG else 1.6, [0, 1.0, 0, 0.8], rectangle(0, 0.25, 0, 0.5), 0.0125))
+    if sound(run, "dam break, impact and return"):
+        gain = run.invariant("largest_energy_gain")
+        expect(gain < 0.02, f"dam break: largest energy gain {gain:.4f} (bound 0.02)")
+
+
+def isolated_drops():
+    drops = "[[[0.10, 0.50], [0.13, 0.50], [0.13, 0.53], [0.10, 0.53]], [[0.30, 0.60], [0.31, 0.60], [0.31, 0.70], [0.30, 0.70]]]"
+    run = Run("drops", tank(0.25, [0, 0.5, 0, 1.0], drops, 0.01, more="particles_interval = 0.05"))
+    if not sound(run, "drop and thin jet"):
+        return
+    t, position, _ = run.fluid()
+    fall = position[:, :, 1].mean(axis=1) - position[0, :, 1].mean()
+    error = np.max(np.abs(fall + 0.5 * 9.81 * t * t))
+    expect(error < 1e-4, f"drop and thin jet: centre of mass leaves free fall by {error:.1e} m (bound 1e-4)")
+
+
+def sloshing():
+    path = os.path.join(FOLDER, "gravity.csv")
+    t = np.arange(0, 20, 0.01)
+    with open(path, "w") as file:
+        file.write("t, gx, gz\n")
+        for time in t:
+            file.write(f"{time}, {3.0 * np.sin(2 * np.pi * time / 1.1)}, -9.81\n")
+    run = Run("sloshing", tank(10.0 if LONG else 3.0, [0, 0.6, 0, 0.6], rectangle(0, 0.6, 0, 0.2), 0.0133, more=f'gravity_file = "{path}"'))
+    if sound(run, "violent sloshing"):
+        _, _, velocity = run.fluid()
+        fastest = np.max(np.hypot(velocity[..., 0], velocity[..., 1]))
+        # the lid returns what hits it: twice the energy of a fall over the tank's height plus the tank's own motion
+        expect(fastest < 8.0, f"violent sloshing: fastest particle {fastest:.2f} m/s (bound 8)")
+
+
+def full_box():
+    run = Run("full", tank(1.0, [0, 0.3, 0, 0.3], rectangle(0, 0.3, 0, 0.3), 0.015))
+    if sound(run, "closed full box"):
+        t, position, velocity = run.fluid()
+        speed = np.sqrt(np.mean(velocity[-1] ** 2))
+        expect(speed < 0.1, f"closed full box: rms speed {speed:.4f} m/s (bound 0.1)")
+
+
+def fleeing_wall():
+    path = os.path.join(FOLDER, "piston.csv")
+    with open(path, "w") as file:
+        file.write("t,x\n0,0\n0.1,0\n0.3,-0.4\n2.0,-0.4\n")
+    scene = f"""
+title = "wall that flees at 2 m/s"
+[time]
+end = 1.5
+window = 0.5
+[flume]
+bed = [[0.0, -0.3], [4.0, -0.3]]
+[cmps]
+drive = "piston"
+piston_file = "{path}"
+offshore = 1.0
+onshore = 2.0
+particle_spacing = 0.02
+"""
+    run = Run("fleeing", scene)
+    if sound(run, "wall moving away at 2 m/s"):
+        drift = run.invariant("mass_drift")
+        expect(abs(drift) < 0.05, f"wall moving away: volume {drift:+.4f} (bound 0.05)")
+
+
+def acute_corner():
+    scene = """
+title = "water column on a wedge of 30 degrees"
+[time]
+end = 1.0
+window = 0.5
+[flume]
+bed = [[0.0, -0.5], [3.0, -0.5]]
+[cmps]
+drive = "none"
+offshore = 0.0
+onshore = 2.0
+particle_spacing = 0.02
+structure = [[[0.8, -0.5], [1.9, 0.135], [1.9, -0.5]], [[1.2, 0.3], [1.5, -0.05], [1.6, 0.3]]]
+water = [[[0.0, -0.5], [0.3, -0.5], [0.3, 0.2], [0.0, 0.2]]]
+"""
+    run = Run("acute", scene)
+    if sound(run, "acute corners"):
+        gain = run.invariant("largest_energy_gain")
+        expect(gain < 0.02, f"acute corners: largest energy gain {gain:.4f} (bound 0.02)")
+
+
+def time_steps():
+    for courant in (0.5, 0.02):
+        run = Run(f"courant{courant}", tank(0.6, [0, 1.0, 0, 0.8], rectangle(0, 0.25, 0, 0.5), 0.02), sets=[f"cmps.courant={courant}"])
+        if sound(run, f"courant {courant}"):
+            gain = run.invariant("largest_energy_gain")
+            expect(gain < 0.05, f"courant {courant}: largest energy gain {gain:.4f} (bound 0.05)")
+
+
+def almost_nothing():
+    run = Run("one", tank(0.2, [0, 0.2, 0, 0.2], rectangle(0.10, 0.11, 0.10, 0.13), 0.01, more=""))
+    sound(run, "three particles")
+    run = Run("empty", tank(0.2, [0, 0.2, 0, 0.2], rectangle(0.10, 0.104, 0.10, 0.13), 0.01))
+    expect(run.status in (0, 2), f"empty domain: exit {run.status} {run.messages.strip()}")
+
+
+def flume(end, boundary, spacing, more=""):
+    return f"""
+title = "flume"
+[time]
+end = {end}
+window = 1.0
+[flume]
+bed = [[0.0, -0.4], [40.0, -0.4]]
+[cmps]
+offshore = 25.0
+onshore = 28.0
+boundary = "{boundary}"
+particle_spacing = {spacing}
+{more}
+"""
+
+
+def overflow():
+    period, count = 1.65, 100 if LONG else 8
+    end = round((count + 3) * period)
+    waves = os.path.join(FOLDER, "waves")
+    write_waves(waves, 0.06, period, 0.4, 24, 30, end, window=1.0)
+    run = Run("overflow", flume(end, "paper", 0.4 / 12, "crest_lowering = 0.05\nrelaxation_length = 1.2"), waves=waves)
+    if sound(run, f"overflow of the wall, {count} periods"):
+        passed = run.figure("particles", "passed_wall")
+        expect(passed > 0, f"overflow: {passed:.0f} particles passed the wall and were put back")
+        drift = run.invariant("largest_mass_drift")
+        expect(drift < 0.01, f"overflow: largest drift of volume {drift:.4f} (bound 0.01: a third of a spacing at the surface)")
+
+
+def overturning():
+    waves = os.path.join(FOLDER, "high_waves")
+    write_waves(waves, 0.20, 1.65, 0.4, 24, 30, 14, window=1.0)
+    structure = "structure = [[[26.6, -0.4], [27.0, -0.2], [27.4, -0.2], [27.4, 0.1], [27.7, 0.1], [27.7, -0.4]]]"
+    end = 14 if LONG else 8
+    run = Run("overturning", flume(end, "relaxation", 0.025, structure), waves=waves)
+    if sound(run, "overturning and overtopping"):
+        over = run.figure("overtopped_volume")
+        expect(over > 0, f"overturning: {over:.4f} m2 over the crest")
+        drift = run.invariant("largest_mass_drift")
+        expect(drift < 0.02, f"overturning: largest drift of volume {drift:.4f} (bound 0.02)")
+
+
+def notices():
+    run = Run("wrong", tank(2.0, [0, 1.0, 0, 0.8], rectangle(0, 0.25, 0, 0.5), 0.0125),
+              sets=["cmps.gradient=antisymmetric_local", "cmps.stabilisation=0", "cmps.shifting=0", "cmps.negative_pressure=true"])
+    expect(run.status == 1 and "unstable" in run.messages, f"a run that goes wrong: exit {run.status}, says: {run.messages.strip()[:110]}")
+    expect(run.record.get("status") == "failed", "a run that goes wrong: run.json says failed")
+
+
+for case in (still_water, dam_break, isolated_drops, sloshing, full_box, fleeing_wall, acute_corner, time_steps, almost_nothing,
+             overflow, overturning, notices):
+    case()
+finish()
