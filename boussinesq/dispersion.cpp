@@ -6,6 +6,10 @@
 namespace boussinesq {
 namespace {
 
+/// The equations hold over mild slopes; across a step they would all but stop the flow, so that the
+/// dispersive parts on both sides are uncoupled and the flow over it is hydrostatic.
+constexpr double steepest_slope = 1.0;
+
 constexpr double square(double x) {
     return x * x;
 }
@@ -19,7 +23,8 @@ void wet_slopes(Tile& tile, const FlowParameters& flow) {
 }
 
 /// Marks the cells whose flow is hydrostatic: where the fluxes are first order (near dry cells and over bed
-/// steps as high as the water), their neighbours, and bores. Elsewhere the slope is the very gradient the
+/// steps as high as the water), their neighbours, and bores (listed, or a
+/// surface that jumps by half the depth from cell to cell). Elsewhere the slope is the very gradient the
 /// fluxes make, weighted with the depths at the faces: any other one would let the dispersive part feed on
 /// the difference over a rough bed.
 void shoreline_slopes(Tile& tile, const FlowParameters& flow, const unsigned char* bore) {
@@ -27,7 +32,14 @@ void shoreline_slopes(Tile& tile, const FlowParameters& flow, const unsigned cha
     for (std::size_t t = tile.begin() - 1; t < tile.end() + 1; ++t) {
         const bool rough =
             tile.is_first_order[t - 1] + tile.is_first_order[t] + tile.is_first_order[t + 1] != 0.0;
-        tile.held[t] = rough || (bore != nullptr && bore[tile.first + t] != 0) ? 1.0 : 0.0;
+        const double jump = std::max(std::abs(tile.elevation[t] - tile.elevation[t - 1]),
+                                     std::abs(tile.elevation[t + 1] - tile.elevation[t]));
+        const double speed_jump = std::max(std::abs(tile.velocity[t] - tile.velocity[t - 1]),
+                                           std::abs(tile.velocity[t + 1] - tile.velocity[t]));
+        const double least = std::min(std::min(tile.depth[t - 1], tile.depth[t]), tile.depth[t + 1]);
+        const bool is_bore = jump > 0.5 * least || square(speed_jump) > 0.25 * gravity * least ||
+                             (bore != nullptr && bore[tile.first + t] != 0);
+        tile.held[t] = rough || is_bore ? 1.0 : 0.0;
         const double e = tile.elevation[t];
         const double left = tile.elevation_minus[t] + tile.elevation_plus[t] - 2.0 * e;
         const double right = tile.elevation_minus[t + 1] + tile.elevation_plus[t + 1] - 2.0 * e;
@@ -57,19 +69,22 @@ void assemble(Tile& tile, const FlowParameters& flow) {
     const double* u = tile.velocity.value;
     const double* b = tile.bed.value;
     const double* s = tile.elevation_slope.value;
+    const double* bed_slope = tile.bed_slope.value;
     const std::size_t from = tile.begin(), to = tile.end();
 
+    for (std::size_t t = from - 2; t < to + 3; ++t)
+        tile.bed_slope[t] = std::clamp((b[t] - b[t - 1]) * inverse, -steepest_slope, steepest_slope);
     for (std::size_t t = from - 2; t < to + 2; ++t) {
-        const double bend = (b[t + 1] - 2.0 * b[t] + b[t - 1]) * inverse * inverse;
-        tile.curvature[t] = square(h[t] * u[t]) * bend;
+        tile.curvature[t] = square(h[t] * u[t]) * (bed_slope[t + 1] - bed_slope[t]) * inverse;
     }
     for (std::size_t t = from - 1; t < to + 2; ++t) {
         const double depth = is_smooth ? face_value(h, t) : 0.5 * (h[t - 1] + h[t]);
-        const double bed_slope = (b[t] - b[t - 1]) * inverse;
-        const double p = depth * inverse / sqrt3, r = 0.25 * sqrt3 * bed_slope, q = square(0.25 * bed_slope);
-        // No coupling across the edge of held cells: the natural condition, which keeps the operator
-        // symmetric.
-        const double coupled = is_smooth ? 1.0 : (1.0 - tile.held[t - 1]) * (1.0 - tile.held[t]);
+        const double p = depth * inverse / sqrt3, r = 0.25 * sqrt3 * bed_slope[t],
+                     q = square(0.25 * bed_slope[t]);
+        // No coupling and none but hydrostatic pressure at the edge of held cells: the natural condition,
+        // which keeps the operator symmetric and momentum conserved.
+        const double mild = std::abs(b[t] - b[t - 1]) * inverse > steepest_slope ? 0.0 : 1.0;
+        const double coupled = is_smooth ? mild : mild * (1.0 - tile.held[t - 1]) * (1.0 - tile.held[t]);
         const double weight = coupled * flow.alpha * depth;
         // The smaller depth keeps the matrix positive.
         const double numerov = coupled * std::min(h[t - 1], h[t]) / 12.0;
@@ -78,17 +93,17 @@ void assemble(Tile& tile, const FlowParameters& flow) {
         tile.diagonal[t] = weight * (square(p - r) + q) - numerov;        // of the cell shoreward
         tile.diagonal_minus[t] = weight * (square(p + r) + q) - numerov;  // of the cell offshore
         const double difference = is_smooth ? face_difference(u, t) : u[t] - u[t - 1];
-        const double strain = depth * square(difference * inverse);
+        const double strain = coupled * depth * square(difference * inverse);
         tile.stretch[t] = square(depth) * strain;
-        tile.bed_stretch[t] = depth * strain * bed_slope;
+        tile.bed_stretch[t] = depth * strain * bed_slope[t];
     }
     for (std::size_t t = from - 1; t < to + 1; ++t) {
-        const double bed_slope = 0.5 * (b[t + 1] - b[t - 1]) * inverse;
-        const double bend = (b[t + 1] - 2.0 * b[t] + b[t - 1]) * inverse * inverse;
+        const double slope = 0.5 * (bed_slope[t] + bed_slope[t + 1]);
+        const double bend = (bed_slope[t + 1] - bed_slope[t]) * inverse;
         tile.force[t] = (2.0 / 3.0) * (tile.stretch[t + 1] - tile.stretch[t]) * inverse +
                         0.5 * (tile.bed_stretch[t + 1] + tile.bed_stretch[t]) +
                         0.25 * (tile.curvature[t + 1] - tile.curvature[t - 1]) * inverse +
-                        h[t] * square(u[t]) * bend * bed_slope;
+                        h[t] * square(u[t]) * bend * slope;
     }
     for (std::size_t t = from; t < to; ++t) {
         const double averaged_slope =

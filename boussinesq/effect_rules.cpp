@@ -52,6 +52,8 @@ Verdict needs_dispersion(const Expectation& expected) {
 Verdict needs_breaking(const Expectation& expected) {
     const double lowest = shallowest(expected);
     if (expected.height <= 0) return {false, "no waves"};
+    if (!expected.is_dispersive)
+        return {false, "without dispersion bores form and lose energy by themselves"};
     if (lowest <= 0)
         return {true, "the bed rises above still water: waves break on the way or at the shoreline"};
     const double ratio = shoaled_height(expected, lowest) / lowest;

@@ -16,6 +16,7 @@ struct Expectation {
     bool reflects = false;          ///< a wall at the shoreward end
     double phase_tolerance = 0.02;  ///< error of phase over the flume that is worth a term, in periods
     double friction = 0;
+    bool is_dispersive = true;  ///< as decided before breaking is
 };
 
 struct Verdict {

@@ -48,7 +48,8 @@ std::optional<std::string> EffectWatch::look(Simulation& simulation) {
         return fmt::format("t = {:.4g} s: the least depth fell to {:.3g} m: shoreline switched on",
                            simulation.time(), simulation.shallowest());
     }
-    if (scene_.has_breaking || breaking_started_ || breaking_told_ || simulation.steps() % interval != 0)
+    if (!simulation.flow().terms().dispersion || scene_.has_breaking || breaking_started_ || breaking_told_ ||
+        simulation.steps() % interval != 0)
         return {};
     const SteepestFront front = steepest_front(simulation);
     if (front.ratio <= scene_.breaking.start) return {};

@@ -93,7 +93,9 @@ Report::Report(const std::filesystem::path& folder, const common::SceneFile& fil
       record_(folder, "boussinesq"),
       envelope_(scene.grid, envelope_begin(scene)),
       waterline_(scene.grid, 2e-3 * scene.waves.depth),
-      water_at_start_(simulation.water()) {
+      water_at_start_(simulation.water()),
+      energy_at_start_(simulation.energy()),
+      largest_energy_(energy_at_start_) {
     std::filesystem::remove(folder / "envelope.h5");
     record_.describe_scene(file);
     record_.set_digests(file.digest(), "");
@@ -168,8 +170,12 @@ void Report::fill_invariants() {
                            .value = simulation_.largest_courant(),
                            .unit = "-",
                            .bound = 1.0 + 1e-9});
+    const double energy = simulation_.energy();
+    largest_energy_ = std::max(largest_energy_, energy);
+    record_.set_figure("energy.at_start", energy_at_start_);
+    record_.set_figure("energy.largest", largest_energy_);
     record_.set_invariant({.name = "energy",
-                           .value = simulation_.energy(),
+                           .value = energy,
                            .unit = "m4/s2",
                            .bound = std::numeric_limits<double>::infinity()});
 }
@@ -253,12 +259,16 @@ std::string Report::summary() const {
 
 void Report::save(common::DataFile& state) const {
     state.attributes["water_at_start"] = water_at_start_;
+    state.attributes["energy_at_start"] = energy_at_start_;
+    state.attributes["largest_energy"] = largest_energy_;
     envelope_.save(state);
     waterline_.save(state);
 }
 
 void Report::restore(const common::DataFile& state) {
     water_at_start_ = state.number("water_at_start");
+    energy_at_start_ = state.number("energy_at_start");
+    largest_energy_ = state.number("largest_energy");
     first_step_ = simulation_.steps();
     envelope_.restore(state);
     waterline_.restore(state);

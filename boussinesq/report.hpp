@@ -49,7 +49,7 @@ class Report {
     common::RunRecord record_;
     Envelope envelope_;
     Waterline waterline_;
-    double water_at_start_, largest_energy_ = 0;
+    double water_at_start_, energy_at_start_, largest_energy_;
     std::int64_t first_step_ = 0;
     int notes_ = 0;
 };

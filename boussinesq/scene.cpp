@@ -307,6 +307,7 @@ void decide_effects(const common::SceneFile& file, Scene& scene) {
         return on;
     };
     scene.terms.dispersion = decide("dispersion", needs_dispersion(expected));
+    expected.is_dispersive = scene.terms.dispersion;
     scene.has_breaking = decide("breaking", needs_breaking(expected));
     scene.terms.shoreline = decide("shoreline", needs_shoreline(expected));
     scene.shoreline_is_automatic =
@@ -365,7 +366,7 @@ Scene read_scene(const common::SceneFile& file) {
     scene.flow.dry_depth = section.number("dry_depth", "m", "water thinner than this counts as dry",
                                           Range::positive(), 1e-4 * depth);
     scene.flow.elevation_scale = 1e-2 * depth;
-    scene.flow.velocity_scale = 1e-2 * std::sqrt(gravity * depth);
+    scene.flow.discharge_scale = 1e-2 * depth * std::sqrt(gravity * depth);
     file.finish();
     return scene;
 }

@@ -8,6 +8,9 @@
 namespace boussinesq {
 namespace {
 
+/// Depth, in dry depths, from which the kernels for wet cells hold.
+constexpr double deep = 100.0;
+
 /// HLL flux of depth and discharge between (h, u) on the offshore and on the shoreward side of a face.
 struct Flux {
     double depth, discharge;
@@ -45,11 +48,17 @@ inline Flux hll_flux_beside_dry(double h_minus, double u_minus, double h_plus, d
             (right * p_minus - left * p_plus + left * right * (q_plus - q_minus)) * scale};
 }
 
+/// Elevation and velocity on both sides of faces [from, to). Velocity comes from the discharge, which stays
+/// smooth where the bed does not, over the depth at the face; from the velocity itself where `may_be_dry` and
+/// the water is shallow.
+template <bool may_be_dry>
 void reconstruct(Tile& tile, std::size_t from, std::size_t to, const FlowParameters& flow) {
     const double elevation_noise = flow.elevation_scale * flow.elevation_scale;
-    const double velocity_noise = flow.velocity_scale * flow.velocity_scale;
+    const double discharge_noise = flow.discharge_scale * flow.discharge_scale;
+    [[maybe_unused]] const double velocity_noise =
+        gravity * flow.elevation_scale;  // of waves that small over as little water
     const double* e = tile.elevation.value;
-    const double* u = tile.velocity.value;
+    const double* q = tile.discharge.value;
 #pragma GCC ivdep
     for (std::size_t t = from; t < to; ++t) {
         tile.elevation_minus[t] = weno5(e[t - 3], e[t - 2], e[t - 1], e[t], e[t + 1], elevation_noise);
@@ -57,8 +66,20 @@ void reconstruct(Tile& tile, std::size_t from, std::size_t to, const FlowParamet
     }
 #pragma GCC ivdep
     for (std::size_t t = from; t < to; ++t) {
-        tile.velocity_minus[t] = weno5(u[t - 3], u[t - 2], u[t - 1], u[t], u[t + 1], velocity_noise);
-        tile.velocity_plus[t] = weno5(u[t + 2], u[t + 1], u[t], u[t - 1], u[t - 2], velocity_noise);
+        const double minus = weno5(q[t - 3], q[t - 2], q[t - 1], q[t], q[t + 1], discharge_noise);
+        const double plus = weno5(q[t + 2], q[t + 1], q[t], q[t - 1], q[t - 2], discharge_noise);
+        tile.velocity_minus[t] = minus / std::max(tile.elevation_minus[t] - tile.face_bed[t], flow.dry_depth);
+        tile.velocity_plus[t] = plus / std::max(tile.elevation_plus[t] - tile.face_bed[t], flow.dry_depth);
+    }
+    if constexpr (may_be_dry) {
+        const double* u = tile.velocity.value;
+        for (std::size_t t = from; t < to; ++t) {
+            const double least = std::min(std::min(tile.depth[t - 1], tile.depth[t]),
+                                          std::min(e[t - 1], e[t]) - tile.face_bed[t]);
+            if (least > deep * flow.dry_depth) continue;  // as a tile that is deep throughout takes it
+            tile.velocity_minus[t] = weno5(u[t - 3], u[t - 2], u[t - 1], u[t], u[t + 1], velocity_noise);
+            tile.velocity_plus[t] = weno5(u[t + 2], u[t + 1], u[t], u[t - 1], u[t - 2], velocity_noise);
+        }
     }
 }
 
@@ -72,6 +93,7 @@ void load_tile(Tile& tile, const double* depth, const double* discharge, const d
     const double* b = face_level + tile.first;
     for (std::size_t t = 0; t < width; ++t) {
         tile.depth[t] = h[t];
+        tile.discharge[t] = q[t];
         tile.face_bed[t] = b[t];
         tile.bed[t] = 0.5 * (b[t] + b[t + 1]);
         tile.elevation[t] = h[t] + tile.bed[t];
@@ -96,12 +118,12 @@ bool is_deep(const Tile& tile, const FlowParameters& flow) {
     }
     // The reconstruction overshoots neighbours by a fraction of their difference only: a margin of a tenth of
     // the steepest step between neighbours would do; 100 dry depths is wider for every wave that is resolved.
-    return shallowest > 100.0 * flow.dry_depth;
+    return shallowest > deep * flow.dry_depth;
 }
 
 void wet_fluxes(Tile& tile, const FlowParameters& flow) {
     const std::size_t from = tile.begin(), to = tile.end() + 1;
-    reconstruct(tile, from, to, flow);
+    reconstruct<false>(tile, from, to, flow);
 #pragma GCC ivdep
     for (std::size_t t = from; t < to; ++t) {
         const double h_minus = std::max(tile.elevation_minus[t] - tile.face_bed[t], flow.dry_depth);
@@ -115,7 +137,7 @@ void wet_fluxes(Tile& tile, const FlowParameters& flow) {
 void shoreline_fluxes(Tile& tile, const FlowParameters& flow, double step) {
     const std::size_t from = tile.begin() - 1,
                       to = tile.end() + 2;  // one face more each side for the outflow limit
-    reconstruct(tile, from, to, flow);
+    reconstruct<true>(tile, from, to, flow);
 
     // Face states as each cell sees them: index t holds cell t's own view of its offshore (plus) and
     // shoreward (minus) face.

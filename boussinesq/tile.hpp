@@ -25,7 +25,7 @@ struct Tile {
     std::size_t count;  ///< inner cells
 
     // cells
-    TileArray depth, bed, elevation, velocity;
+    TileArray depth, discharge, bed, elevation, velocity;
     // faces: bed level, states on the offshore (minus) and shoreward (plus) side
     TileArray face_bed, elevation_minus, elevation_plus, velocity_minus, velocity_plus;
     // faces: fluxes of depth and of discharge as the cell on either side sees them
@@ -35,7 +35,7 @@ struct Tile {
     TileArray is_first_order;  ///< 1 where a cell's own values stand for its face values, else 0
     TileArray outflow_share;   ///< of a cell's outgoing flux that it can afford
     // dispersion: (g/alpha) eta_x, terms of Q, and the symmetric tridiagonal system (off_diagonal at faces)
-    TileArray elevation_slope, stretch, bed_stretch, curvature, force;
+    TileArray elevation_slope, bed_slope, stretch, bed_stretch, curvature, force;
     TileArray numerov, off_diagonal, diagonal, diagonal_minus, right_side;
     TileArray held;  ///< 1 where the acceleration D is prescribed (near dry or breaking cells), else 0
 

@@ -26,9 +26,8 @@ struct FlowParameters {
     double spacing;           ///< m
     double alpha = 1.153;     ///< dispersion constant (Bonneton et al. 2011); 1: classical Serre-Green-Naghdi
     double dry_depth = 1e-5;  ///< cells below it count as dry, m
-    double velocity_scale =
-        1e-3;  ///< sqrt(g) times the depth scale: size of a velocity that is noise to WENO, m/s
-    double elevation_scale = 1e-3;  ///< size of an elevation that is noise to WENO, m
+    double discharge_scale = 1e-3;  ///< size of a change of discharge that is no jump to WENO, m2/s
+    double elevation_scale = 1e-3;  ///< size of a change of elevation that is no jump to WENO, m
     End offshore = End::wall;
     End shoreward = End::wall;
 };

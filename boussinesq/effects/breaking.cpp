@@ -55,14 +55,17 @@ void EddyViscosity::find_fronts(const WaveState& state, double t, double step) {
 }
 
 void EddyViscosity::diffuse(WaveState& state, double step, std::size_t first, std::size_t last) {
-    // q - dt (nu q_x)_x = q* on cells first..last, viscosity zero beyond them.
+    // h u - dt (nu h u_x)_x = q* for u on cells first..last, viscosity zero beyond them.
+    const double* h = state.depth.data();
     double* q = state.discharge.data();
     const double scale = step / (grid_.spacing * grid_.spacing);
-    const auto face = [&](std::size_t k) { return scale * 0.5 * (viscosity_[k - 1] + viscosity_[k]); };
+    const auto face = [&](std::size_t k) {
+        return scale * 0.25 * (viscosity_[k - 1] + viscosity_[k]) * (h[k - 1] + h[k]);
+    };
     double before = 0.0, ratio = 0.0, value = 0.0;
     for (std::size_t k = first; k <= last; ++k) {
         const double after = k < last ? face(k + 1) : 0.0;
-        const double pivot = 1.0 / (1.0 + before + after - before * ratio);
+        const double pivot = 1.0 / (std::max(h[k], dry_depth_) + before + after - before * ratio);
         ratio = after * pivot;
         value = (q[k] + before * value) * pivot;
         ratio_[k] = ratio;
@@ -72,7 +75,7 @@ void EddyViscosity::diffuse(WaveState& state, double step, std::size_t first, st
     double above = 0.0;
     for (std::size_t k = last + 1; k-- > first;) {
         above = value_[k] + ratio_[k] * above;
-        q[k] = above;
+        q[k] = std::max(h[k], dry_depth_) * above;
     }
 }
 

@@ -3,7 +3,7 @@
 /// A front breaks where the surface rises faster than a threshold, eta_t > s sqrt(g h). Two ways to take the
 /// energy out:
 ///
-/// - EddyViscosity (Kennedy, Chen, Kirby and Dalrymple 2000): (h u)_t = ... + (nu (h u)_x)_x with
+/// - EddyViscosity (Kennedy, Chen, Kirby and Dalrymple 2000): (h u)_t = ... + (nu h u_x)_x with
 ///   nu = B mixing^2 h eta_t, B = clamp(eta_t / eta_t* - 1, 0, 1); eta_t* falls from `start` to `end` times
 ///   sqrt(g h) over 5 sqrt(h/g), counted from when that front began to break (the age travels with the
 ///   front). Solved implicitly: first order in time, stable for any step; conserves water and momentum.
@@ -31,7 +31,7 @@ struct EddyViscosityConstants {
     double start = 0.45;      ///< eta_t over sqrt(g h) at which a front begins to break
     double end = 0.10;        ///< and below which an old one stops
     double transition = 5.0;  ///< of sqrt(h/g)
-    double mixing = 1.6;      ///< mixing length over depth
+    double mixing = 2.0;      ///< mixing length over depth; Kennedy et al. 1.2 for (nu (h u)_x)_x (README)
 };
 
 class EddyViscosity : public StepEffect {

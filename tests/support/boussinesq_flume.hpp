@@ -85,7 +85,7 @@ inline boussinesq::FlowParameters scaled(double depth, double alpha = 1.153) {
     return {.spacing = 1.0,
             .alpha = alpha,
             .dry_depth = 1e-4 * depth,
-            .velocity_scale = 1e-2 * std::sqrt(boussinesq::gravity * depth),
+            .discharge_scale = 1e-2 * depth * std::sqrt(boussinesq::gravity * depth),
             .elevation_scale = 1e-2 * depth};
 }
 

@@ -1,0 +1,145 @@
+"""Waves made, carried, reflected and taken in, through the program: the height asked for is the height that arrives."""
+import json
+
+import numpy
+
+from harness import *
+
+
+def flume(depth=0.8, length=60.0, end=120.0, waves="", gauges=(15, 20, 25, 30, 35, 40), more=""):
+    names = "\n".join(f'"g{x}" = {x}' for x in gauges)
+    return f"""
+[time]
+end = {end}
+window = 10.0
+[flume]
+bed = [[0.0, {-depth}], [{length}, {-depth}]]
+[waves]
+{waves}
+[gauges]
+{names}
+[boussinesq]
+{more}
+"""
+
+
+def run_flume(folder, text, *options, name="waves"):
+    scene = write_scene(folder, text, name + ".toml")
+    run("boussinesq", "run", scene, "--out", folder / name, "--quiet", *options).expect_done()
+    check_invariants(folder / name)
+    return run_folder.read_run(folder / name)["figures"]
+
+
+def gauge_figures(figures, key):
+    return numpy.array([gauge[key] for gauge in figures["gauges"].values()])
+
+
+@test
+def height_asked_for_is_the_height_that_arrives(folder):
+    for height, period in ((0.01, 1.65), (0.168, 1.65), (0.3, 1.65), (0.15, 3.0), (0.05, 1.1)):
+        figures = run_flume(folder, flume(waves=f'kind = "regular"\nheight = {height}\nperiod = {period}'), name=f"h{height}")
+        heights = gauge_figures(figures, "mean_height") / height
+        check_below(f"H = {height} m, T = {period} s: mean height", heights.mean() - 1, 0.02, "H", "asked for: 2 %")
+        check_below(f"H = {height} m, T = {period} s: spread along the flume", heights.max() - heights.min(), 0.02, "H",
+                    "what the sponge sends back, and nothing more")
+
+
+@test
+def steep_wave_keeps_its_form(folder):
+    figures = run_flume(folder, flume(waves='kind = "regular"\nheight = 0.3\nperiod = 1.65'))
+    crest = gauge_figures(figures, "highest") / gauge_figures(figures, "mean_height")
+    check_below("crest over height along 25 m, seven lengths: spread", crest.max() - crest.min(), 0.01, "",
+                "a free second harmonic of 1 % would beat by 2 %")
+    check_between("crest over height", crest.mean(), 0.55, 0.62, "", "Stokes and cnoidal theory: 0.58 at this steepness")
+
+
+@test
+def sponge_takes_waves_in(folder):
+    for period in (1.1, 1.65, 2.5):
+        figures = run_flume(folder, flume(waves=f'kind = "regular"\nheight = 0.02\nperiod = {period}'), name=f"t{period}")
+        reflection = gauge_figures(figures, "reflection_coefficient").mean()
+        check_below(f"T = {period} s: reflection by three gauges", reflection, 0.02, "", "asked for: 2 %")
+
+
+@test
+def reflected_waves_do_not_come_back(folder):
+    # A wall at the end: a full standing wave, whose incident part must stay what was asked for.
+    waves = 'kind = "regular"\nheight = 0.02\nperiod = 1.65'
+    figures = run_flume(folder, flume(waves=waves, more='shoreward = "wall"', end=150.0))
+    check_below("incident height in front of the wall", gauge_figures(figures, "incident_height").mean() / 0.02 - 1, 0.03, "H",
+                "two ways through the zone at 1 % each, and the gauges' method")
+    check_between("reflection of a wall", gauge_figures(figures, "reflection_coefficient").mean(), 0.96, 1.02, "", "1 but for what the way costs")
+
+
+@test
+def irregular_waves_have_the_height_of_their_spectrum(folder):
+    for kind in ("jonswap", "bretschneider"):
+        waves = f'kind = "{kind}"\nheight = 0.05\nperiod = 2.0\nseed = 3'
+        figures = run_flume(folder, flume(waves=waves, end=400.0, gauges=(20, 30)), name=kind)
+        check_below(f"{kind}: 4 sigma over the height asked for", gauge_figures(figures, "spectral_height").mean() / 0.05 - 1, 0.07, "",
+                    "150 waves scatter by 1 / sqrt(2 * 150) = 6 %")
+        ratio = gauge_figures(figures, "significant_height").mean() / gauge_figures(figures, "spectral_height").mean()
+        check_between(f"{kind}: H_1/3 over 4 sigma", ratio, 0.88, 1.02, "", "0.95 in Goda's field data")
+
+
+@test
+def a_record_comes_out_where_it_was_taken(folder):
+    # Waves of one run, recorded at x = 15, drive a second one; both must agree farther on.
+    waves = 'kind = "regular"\nheight = 0.02\nperiod = 1.65'
+    run_flume(folder, flume(waves=waves, end=40.0), name="first")
+    time, elevation = run_folder.gauge(folder / "first", "g15")
+    (folder / "record.csv").write_text("t,eta\n" + "\n".join(f"{t:.6f},{e:.9f}" for t, e in zip(time, elevation)) + "\n")
+    run_flume(folder, flume(waves='kind = "series"\nfile = "record.csv"\nposition = 15.0', end=40.0), name="second")
+    for x in (20, 25):
+        time, first = run_folder.gauge(folder / "first", f"g{x}")
+        other_time, other = run_folder.gauge(folder / "second", f"g{x}")
+        settled = (time > 22) & (time < 34)
+        second = numpy.interp(time[settled], other_time, other)
+        error = numpy.sqrt(numpy.mean((second - first[settled]) ** 2)) / 0.02
+        check_below(f"difference at x = {x} m", error, 0.04, "H", "the wave is linear at 2 % of the depth; H/d enters squared")
+
+
+@test
+def a_hump_parts_into_two_equal_waves(folder):
+    x = numpy.linspace(0.0, 40.0, 2001)
+    hump = 0.05 * numpy.exp(-((x - 20.0) / 1.5) ** 2)
+    (folder / "hump.csv").write_text("x,eta\n" + "\n".join(f"{a:.4f},{b:.9f}" for a, b in zip(x, hump)) + "\n")
+    text = """
+[time]
+end = 4.0
+window = 1.0
+[flume]
+bed = [[0.0, -0.8], [40.0, -0.8]]
+[initial]
+file = "hump.csv"
+[boussinesq]
+spacing = 0.05
+[gauges]
+left = 12.025
+right = {x = 27.975, interval = 0.01}
+"""
+    run_flume(folder, text)
+    _, left = run_folder.gauge(folder / "waves", "left")
+    time, right = run_folder.gauge(folder / "waves", "right")
+    check(len(time) > 350, f"the gauge with its own interval of 0.01 s holds {len(time)} samples in 4 s")
+    elevation = run_folder.read_series(folder / "waves", "/surface_elevation")[1]
+    check_below("left and right differ by", abs(elevation - elevation[:, ::-1]).max(), 1e-7, "m", "float32 of 0.05 m")
+    check_between("height of each half", right.max() / 0.05, 0.42, 0.52, "", "half, spread by dispersion")
+    check_between("height of the other", left.max() / 0.05, 0.42, 0.52, "", "half, spread by dispersion")
+
+
+@test
+def windows_do_not_touch_the_waves(folder):
+    waves = 'kind = "regular"\nheight = 0.1\nperiod = 1.65'
+    records = []
+    for window in (0.05, 0.77, 5.0):
+        run_flume(folder, flume(waves=waves, end=10.0), "--set", f"time.window={window}", name=f"w{window}")
+        time, elevation = run_folder.gauge(folder / f"w{window}", "g15")
+        records.append(dict(zip(numpy.round(time, 9), elevation)))
+    common = set(records[0]) & set(records[1]) & set(records[2])
+    check(len(common) > 300, f"only {len(common)} common samples")
+    worst = max(abs(records[0][t] - record[t]) for t in common for record in records[1:])
+    check_below("difference between windows of 0.05, 0.77 and 5 s", worst, 1e-15, "m", "the steps do not know of windows")
+
+
+main()
