@@ -71,6 +71,20 @@ def layouts_have_folders_of_their_own_and_share_one_flow(folder):
 
 
 @test
+def a_sweep_shares_the_flow_where_it_can(folder):
+    bench = Workbench(folder)
+    sweep = "SWEEP=waves.height=0.1 waves.height=0.2 dem.friction=0.4"
+    calls = bench.make("-j2", "sweep", sweep, "SET=accuracy=draft")
+    check(sorted(programs(calls)) == ["boussinesq"] * 3 + ["cmps"] * 3 + ["dem"] * 3, calls)
+    friction = [call for call in calls if "dem.friction=0.4" in call]
+    check(len(friction) == 1 and f"--flow {folder}/out/flow --out {folder}/out/dem.friction=0.4/blocks" in friction[0], calls)
+    high = [call for call in calls if "waves.height=0.2" in call]
+    check(len(high) == 3 and f"--flow {folder}/out/waves.height=0.2/flow" in high[2], calls)
+    check(all("--set accuracy=draft" in call for call in calls), calls)
+    check(bench.make("-j2", "sweep", sweep, "SET=accuracy=draft") == [], "nothing changed, yet something ran")
+
+
+@test
 def launch_stands_before_every_stage(folder):
     bench = Workbench(folder)
     launcher = folder / "launcher"
