@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "boussinesq/csv_table.hpp"
+#include "boussinesq/waves/permanent_wave.hpp"
 #include "boussinesq/waves/solitary_wave.hpp"
 #include "boussinesq/waves/wave_theory.hpp"
 #include "common/errors.hpp"
@@ -119,7 +120,7 @@ void read_waves(const common::SceneFile& file, Scene& scene, const LinearDispers
         section.problem("kind", "give either [waves] or [initial] file, not both");
     if (waves.depth <= 0.0) {
         file.section("flume").problem("bed", "the offshore end must lie below still water");
-        return;
+        waves.depth = 1.0;  // so that reading goes on
     }
     const Range heights = Range::positive();
     if (kind == "regular" || kind == "jonswap" || kind == "bretschneider") {
@@ -161,12 +162,19 @@ void read_waves(const common::SceneFile& file, Scene& scene, const LinearDispers
                                                   waves.period, waves.depth, exact * waves.depth,
                                                   two_pi / std::sqrt(gravity * 5.0 / waves.depth)));
         const double limit = largest_wave_height(two_pi / exact, waves.depth);
+        if (exact * waves.depth > 5.0 || !std::isfinite(carried)) return;
         if (waves.height > (regular ? 1.0 : 0.5) * limit)
             section.problem(
                 "height",
                 fmt::format("{} m is higher than a {} of {} s can be in {} m of water: at most {:.3g} m",
                             waves.height, regular ? "wave" : "sea state", waves.period, waves.depth,
                             (regular ? 1.0 : 0.5) * limit));
+        else if (regular && dispersion.is_dispersive)
+            try {
+                permanent_form(dispersion.alpha, waves.height, waves.period, waves.depth);
+            } catch (const common::InputError& error) {
+                section.problem("height", error.what());
+            }
     } else if (kind == "solitary") {
         waves.kind = WaveKind::solitary;
         waves.height = section.number("height", "m", "of the solitary wave", heights);
@@ -281,7 +289,18 @@ void read_grid_and_ends(const common::SceneFile& file, Scene& scene) {
                         length, scene.generation_length + scene.offshore_sponge + scene.shoreward_sponge));
 }
 
-void decide_effects(const common::SceneFile& file, Scene& scene) {
+/// What [effects] says of each; read once, so that a mistake is reported once.
+struct EffectWishes {
+    common::EffectWish dispersion, breaking, shoreline, friction;
+};
+EffectWishes read_wishes(const common::SceneFile& file) {
+    return {.dispersion = common::read_effect_wish(file, "dispersion"),
+            .breaking = common::read_effect_wish(file, "breaking"),
+            .shoreline = common::read_effect_wish(file, "shoreline"),
+            .friction = common::read_effect_wish(file, "friction")};
+}
+
+void decide_effects(const common::SceneFile& file, const EffectWishes& wishes, Scene& scene) {
     const WaveSection& waves = scene.waves;
     Expectation& expected = scene.expectation;
     expected.bed = scene.bed;
@@ -294,8 +313,7 @@ void decide_effects(const common::SceneFile& file, Scene& scene) {
                                : file.accuracy() == common::Accuracy::standard ? 0.02
                                                                                : 0.01;
     expected.friction = scene.friction;
-    const auto decide = [&](const std::string& name, const Verdict& verdict) {
-        const auto wish = common::read_effect_wish(file, name);
+    const auto decide = [&](const std::string& name, common::EffectWish wish, const Verdict& verdict) {
         const bool on =
             wish == common::EffectWish::automatic ? verdict.is_on : wish == common::EffectWish::on;
         scene.effects.push_back({.name = name,
@@ -306,14 +324,20 @@ void decide_effects(const common::SceneFile& file, Scene& scene) {
                                                              verdict.is_on ? "on" : "off", verdict.reason)});
         return on;
     };
-    scene.terms.dispersion = decide("dispersion", needs_dispersion(expected));
+    scene.terms.dispersion = decide("dispersion", wishes.dispersion, needs_dispersion(expected));
     expected.is_dispersive = scene.terms.dispersion;
-    scene.has_breaking = decide("breaking", needs_breaking(expected));
-    scene.terms.shoreline = decide("shoreline", needs_shoreline(expected));
-    scene.shoreline_is_automatic =
-        common::read_effect_wish(file, "shoreline") == common::EffectWish::automatic;
-    scene.breaking_is_automatic = common::read_effect_wish(file, "breaking") == common::EffectWish::automatic;
-    scene.has_friction = decide("friction", needs_friction(expected));
+    scene.has_breaking = decide("breaking", wishes.breaking, needs_breaking(expected));
+    scene.terms.shoreline = decide("shoreline", wishes.shoreline, needs_shoreline(expected));
+    scene.shoreline_is_automatic = wishes.shoreline == common::EffectWish::automatic;
+    scene.breaking_is_automatic = wishes.breaking == common::EffectWish::automatic;
+    for (const auto& point : scene.bed)
+        if (!scene.terms.shoreline && !scene.shoreline_is_automatic && point[1] >= 0.0) {
+            file.section("effects").problem(
+                "shoreline",
+                fmt::format("is \"off\", but the bed reaches still water at x = {} m", point[0]));
+            break;
+        }
+    scene.has_friction = decide("friction", wishes.friction, needs_friction(expected));
     if (scene.has_friction && scene.friction <= 0)
         file.section("effects").problem("friction", "is on, but boussinesq.friction gives no coefficient");
 }
@@ -348,9 +372,9 @@ Scene read_scene(const common::SceneFile& file) {
     scene.breaking.mixing =
         section.number("breaking_mixing", "-", "mixing length of a breaking front over depth",
                        Range::between(0.1, 10), scene.breaking.mixing);
-    const LinearDispersion dispersion{
-        .alpha = scene.flow.alpha,
-        .is_dispersive = common::read_effect_wish(file, "dispersion") != common::EffectWish::off};
+    const EffectWishes wishes = read_wishes(file);
+    const LinearDispersion dispersion{.alpha = scene.flow.alpha,
+                                      .is_dispersive = wishes.dispersion != common::EffectWish::off};
     read_waves(file, scene, dispersion);
     read_grid_and_ends(file, scene);
     scene.gauges = common::read_gauges(file, scene.output_interval);
@@ -360,7 +384,7 @@ Scene read_scene(const common::SceneFile& file) {
             file.section("gauges").problem(gauge.name,
                                            fmt::format("x = {} m is outside the flume, {} to {} m", gauge.x,
                                                        scene.bed.front()[0], scene.bed.back()[0]));
-    decide_effects(file, scene);
+    decide_effects(file, wishes, scene);
     scene.flow.spacing = scene.grid.spacing;
     const double depth = std::max(1e-3, scene.waves.depth);
     scene.flow.dry_depth = section.number("dry_depth", "m", "water thinner than this counts as dry",

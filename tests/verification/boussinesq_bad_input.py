@@ -1,0 +1,97 @@
+"""Every mistake in a scene gets its one clear line, with file, line and key, exit 2, before anything runs."""
+from harness import *
+
+GOOD = """[time]
+end = 5.0
+window = 1.0
+[flume]
+bed = [[0.0, -0.8], [15.0, -0.8], [23.0, -0.4], [50.0, -0.4]]
+[waves]
+kind = "regular"
+height = 0.1
+period = 1.65
+[gauges]
+"H5-1" = 30.0
+[boussinesq]
+shoreward = "absorbing"
+[effects]
+breaking = "auto"
+"""
+
+SERIES = 'kind = "series"\nfile = "record.csv"'
+
+
+def refuse(folder, old, new, *fragments, files=()):
+    """The scene with `old` changed to `new` is refused in one line that names the scene and holds `fragments`."""
+    check(old in GOOD, f"the scene does not hold {old}")
+    for name, text in files:
+        (folder / name).write_text(text)
+    scene = write_scene(folder, GOOD.replace(old, new))
+    for verb in (("check", scene), ("run", scene, "--out", folder / "waves")):
+        result = run("boussinesq", *verb)
+        result.expect_error(2, "scene.toml", *fragments)
+    check(not list((folder / "waves").glob("window_*")) if (folder / "waves").exists() else True, "something ran")
+    print(f"    {result.stderr.strip()[-150:]}")
+
+
+@test
+def bed(folder):
+    refuse(folder, "[15.0, -0.8]", "[25.0, -0.8]", "flume.bed", "increase")
+    refuse(folder, "[[0.0, -0.8], [15.0, -0.8], [23.0, -0.4], [50.0, -0.4]]", "[[0.0, -0.8]]", "flume.bed", "two points")
+    refuse(folder, "[[0.0, -0.8], [15.0", "[[0.0, 0.1], [15.0", "flume.bed", "below still water")
+    refuse(folder, "[15.0, -0.8]", "[3.0, -0.3]", "flume.bed", "level where waves are made")
+    refuse(folder, "[[0.0, -0.8], [15.0, -0.8], [23.0, -0.4], [50.0, -0.4]]", "[[0.0, -0.8], [4.0, -0.8]]", "flume.bed", "too short")
+
+
+@test
+def waves(folder):
+    refuse(folder, "height = 0.1", "height = 0.6", "waves.height", "higher than a wave", "at most")
+    refuse(folder, "height = 0.1", "height = -0.1", "waves.height")
+    refuse(folder, "period = 1.65", "period = 0.5", "waves.period", "kh")
+    refuse(folder, 'kind = "regular"', 'kind = "regulat"', "waves.kind", "regular")
+    refuse(folder, 'kind = "regular"\nheight = 0.1\nperiod = 1.65', 'kind = "solitary"\nheight = 0.75', "waves.height", "solitary", "at most")
+    refuse(folder, "period = 1.65", "period = 1.65\nramps = 3.0", "waves.ramps", "ramp")
+
+
+@test
+def gauges_and_effects(folder):
+    refuse(folder, '"H5-1" = 30.0', '"H5-1" = 60.0', "gauges.H5-1", "outside the flume")
+    refuse(folder, '"H5-1" = 30.0', '"H5-1" = {x = 30.0, interval = 0.0}', "H5-1", "interval")
+    refuse(folder, 'breaking = "auto"', 'breaking = "maybe"', "breaking")
+    refuse(folder, 'breaking = "auto"', 'friction = "on"', "friction", "no coefficient")
+    refuse(folder, 'breaking = "auto"', 'braking = "on"', "braking", "breaking")
+
+
+@test
+def numerics(folder):
+    refuse(folder, 'shoreward = "absorbing"', "courant = 1.5", "boussinesq.courant")
+    refuse(folder, 'shoreward = "absorbing"', "spacing = 20.0", "boussinesq.spacing", "cells")
+    refuse(folder, 'shoreward = "absorbing"', "spacing = -0.1", "boussinesq.spacing")
+    refuse(folder, 'shoreward = "absorbing"', 'offshore = "wall"', "boussinesq.offshore", "absorbing")
+    refuse(folder, 'shoreward = "absorbing"', "alpha = 0.5", "boussinesq.alpha")
+
+
+@test
+def records(folder):
+    regular = 'kind = "regular"\nheight = 0.1\nperiod = 1.65'
+    rows = "".join(f"{0.1 * i:.1f},{0.01 * (-1) ** (i // 8)}\n" for i in range(100))
+    refuse(folder, regular, SERIES, "waves.file", "record.csv")
+    refuse(folder, regular, SERIES, "waves.file", "record.csv:42", "gap", files=[("record.csv", "t,eta\n" + "".join(
+        f"{0.1 * i + (1.0 if i > 39 else 0.0):.1f},0.01\n" for i in range(100)))])
+    refuse(folder, regular, SERIES, "waves.file", "record.csv:5", "increase", files=[("record.csv", "t,eta\n0,0\n1,0\n2,0\n1.5,0\n4,0\n")])
+    refuse(folder, regular, SERIES, "waves.file", "record.csv:3", "nan", files=[("record.csv", "t,eta\n0,0\n1,nan\n2,0\n3,0\n4,0\n")])
+    refuse(folder, regular, SERIES, "waves.file", "'t'", "'eta'", files=[("record.csv", "time_of_day,level\n" + rows)])
+    refuse(folder, regular, SERIES, "waves.file", "record.csv:4", "3 values", files=[("record.csv", "t,eta\n0,0\n1,0\n2,0,0\n3,0\n4,0\n")])
+    refuse(folder, regular, 'kind = "none"\n[initial]\nfile = "state.csv"', "initial.file", "covers", files=[("state.csv", "x,eta\n0,0\n10,0\n20,0\n30,0\n")])
+
+
+@test
+def all_mistakes_at_once_a_line_each(folder):
+    text = GOOD.replace("height = 0.1", "height = 0.9").replace("= 30.0", "= 99.0").replace("end = 5.0", "end = -1.0").replace('"absorbing"', '"absorbng"')
+    result = run("boussinesq", "check", write_scene(folder, text)).expect_status(2)
+    lines = [line for line in result.stderr.splitlines() if line.strip()]
+    for key in ("waves.height", "gauges.H5-1", "time.end", "boussinesq.shoreward"):
+        check(sum(key in line for line in lines) == 1, f"{key} is not named once:\n{result.stderr}")
+
+
+main()
