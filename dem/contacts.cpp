@@ -60,9 +60,10 @@ void find_touches(const Blocks& blocks, const Surroundings& surroundings, const 
         const double reach = radius + partner_radius;
         Vector origin = centre;
         origin.y() -= shift;
-        for (const auto& candidate : pair.candidates) {
+        for (std::size_t k = 0; k < pair.candidates.size(); ++k) {
+            const Candidate& candidate = pair.candidates[k];
             const Vector arm = turn * shape.spheres[candidate.a];
-            const Vector between = surroundings.fixed_spheres.centre(candidate.b) - origin - arm;
+            const Vector between = pair.centres[k] - origin - arm;
             const double squared = between.squaredNorm();
             if (squared < reach * reach) add(candidate, arm, between, squared, reach, partner_radius);
         }
@@ -99,6 +100,22 @@ double reduced_mass(const Blocks& blocks, const PairList& list, const Pair& pair
     return 1 / inverse;
 }
 
+/// Asks for the memory of the pairs to come. Thousands of pairs do not stay in the near caches, and each is a few pieces
+/// of memory: waiting for them one by one took longer than the arithmetic.
+void fetch_ahead(const PairList& list, std::span<const std::uint32_t> active, std::size_t k) {
+    constexpr std::size_t far = 8, near = 4;
+    constexpr std::size_t line = 64;
+    if (k + far >= active.size()) return;
+    const auto* pair = reinterpret_cast<const char*>(&list.pairs()[active[k + far]]);
+    for (std::size_t byte = 0; byte < sizeof(Pair); byte += line) __builtin_prefetch(pair + byte);
+    const Pair& next = list.pairs()[active[k + near]];
+    const auto* centres = reinterpret_cast<const char*>(next.centres.data());
+    for (std::size_t byte = 0; byte < next.centres.size() * sizeof(Vector); byte += line) __builtin_prefetch(centres + byte);
+    __builtin_prefetch(next.candidates.data());
+    const auto* contacts = reinterpret_cast<const char*>(next.contacts.data());
+    for (std::size_t byte = 0; byte < next.contacts.size() * sizeof(Contact); byte += line) __builtin_prefetch(contacts + byte);
+}
+
 template <class Law, class Friction>
 class PairwiseContacts final : public ContactModel {
  public:
@@ -109,6 +126,7 @@ class PairwiseContacts final : public ContactModel {
                   std::span<const std::uint32_t> active, double dt) const override {
         constexpr std::size_t serial_below = 2000;  // pairs; waking threads costs as much as a few hundred of them
         common::parallel_for(active.size(), serial_below, [&](std::size_t k) {
+            fetch_ahead(list, active, k);
             evaluate_pair(blocks, surroundings, list, list.pairs()[active[k]], dt);
         });
     }

@@ -171,6 +171,7 @@ void PairList::find_incidence() {
 
 void PairList::find_candidates(Pair& pair) {
     pair.candidates.clear();
+    pair.centres.clear();
     if (is_block(pair.partner)) {
         find_block_candidates(pair);
         return;
@@ -184,7 +185,10 @@ void PairList::find_candidates(Pair& pair) {
             near_.clear();
             const double reach = 0.5 * (shape.diameter + surroundings_.fixed_spheres.diameter()) + skin_;
             surroundings_.fixed_spheres.find_near(centre, reach, near_);
-            for (const auto other : near_) pair.candidates.push_back({sphere, other});
+            for (const auto other : near_) {
+                pair.candidates.push_back({sphere, other});
+                pair.centres.push_back(surroundings_.fixed_spheres.centre(other));
+            }
         } else {
             const Plane& wall = plane(pair.partner);
             if ((centre - wall.point).dot(wall.normal) < 0.5 * shape.diameter + skin_) pair.candidates.push_back({sphere, 0});

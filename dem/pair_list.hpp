@@ -33,6 +33,7 @@ struct Pair {
     std::uint32_t block, partner;
     std::int32_t image;  ///< the partner stands this many widths of the periodic box further in y
     std::vector<Candidate> candidates;
+    std::vector<Vector> centres;  ///< of the fixed spheres among the candidates, m: one piece of memory instead of many
     std::vector<Contact> contacts;
     // Results of the last force pass.
     Vector force{0, 0, 0};             ///< on the block, N; the partner feels the opposite
