@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <numeric>
+#include <utility>
 
 #include "common/errors.hpp"
 
@@ -167,10 +168,8 @@ class MemoryImage {
             return std::realloc(memory, size);
         };
         callbacks.image_free = [](void* memory, H5FD_file_image_op_t operation, void* self) -> herr_t {
-            if (operation == H5FD_FILE_IMAGE_OP_FILE_CLOSE)
-                static_cast<MemoryImage*>(self)->memory_ = memory;
-            else
-                std::free(memory);
+            void*& kept = static_cast<MemoryImage*>(self)->memory_;
+            std::free(operation == H5FD_FILE_IMAGE_OP_FILE_CLOSE ? std::exchange(kept, memory) : memory);
             return 0;
         };
         callbacks.udata_copy = [](void* self) { return self; };
@@ -402,7 +401,9 @@ void write_data_file(const fs::path& path, const DataFile& content) {
     {
         Handle root(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
         H5Pset_obj_track_times(root, 0);
-        Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, root, access), H5Fclose);
+        // A name of its own: creating over an existing file would first read all of that file.
+        const std::string name_in_memory = path.string() + ".in_memory";
+        Handle file(H5Fcreate(name_in_memory.c_str(), H5F_ACC_TRUNC, root, access), H5Fclose);
         require_built(file.is_valid(), path, "the file");
         for (const auto& [name, value] : content.attributes) write_attribute(file, name, value, path);
         for (const auto& [name, dataset] : content.datasets) write_dataset(file, name, dataset, path);
