@@ -45,11 +45,11 @@ void settle(Simulation& simulation, const PackingRules& rules, const std::functi
 
 PackedPoses poses_of(const Blocks& blocks) { return {blocks.position, blocks.orientation}; }
 
-void take_over(Simulation& simulation, const Simulation& packing) {
+void take_over(Simulation& simulation, const PackedPoses& packed, const std::vector<Pair>& contacts) {
     for (std::size_t i = 0; i < simulation.blocks.size(); ++i)
-        simulation.blocks.place(i, packing.blocks.position[i], packing.blocks.orientation[i], Vector::Zero(), Vector::Zero());
+        simulation.blocks.place(i, packed.position[i], packed.orientation[i], Vector::Zero(), Vector::Zero());
     Simulation::Memory memory = simulation.memory();
-    memory.pairs = packing.memory().pairs;
+    memory.pairs = contacts;
     memory.sleeping.reset();
     simulation.restore(memory);
 }
@@ -171,13 +171,15 @@ void mount_layout(Simulation& simulation, const Scene& scene, const PackedPoses&
 void put_back(Simulation& simulation, const std::vector<std::uint32_t>& chosen, const PackedPoses& packed) {
     Blocks& blocks = simulation.blocks;
     for (const auto i : chosen) blocks.place(i, packed.position[i], packed.orientation[i], Vector::Zero(), Vector::Zero());
-    // As a crane would: up until free of the neighbours, then let go.
-    const double step = 0.05 * blocks.shape_of(0).diameter;
-    const double free = 0.002 * blocks.shape_of(0).diameter;
+    // As a crane would: up until free of the neighbours, then let go. What rests against a wall may stay pressed a little.
+    const double step = 0.05 * blocks.shape_of(0).diameter, free = 0.02 * blocks.shape_of(0).diameter;
+    const double highest = 3 * blocks.shape_of(0).height;
     for (const auto i : chosen) {
-        const auto depth_of = [&] { return deepest_overlap(blocks, simulation.surroundings(), i).depth; };
-        // Past ten heights there is no neighbour left to be clear of.
-        for (int k = 0; k < 20 * 24 * 10 && depth_of() > free; ++k) blocks.position[i].z() += step;
+        double lift = 0;
+        for (; deepest_overlap(blocks, simulation.surroundings(), i).depth > free && lift < highest; lift += step)
+            blocks.position[i].z() = packed.position[i].z() + lift + step;
+        if (lift >= highest)
+            throw common::InputError(fmt::format("wires.put_back: block {} does not fit back into its place, not even lifted by {:.2g} m", i + 1, lift));
     }
 }
 

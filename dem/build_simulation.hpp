@@ -19,8 +19,8 @@ std::unique_ptr<Simulation> build_simulation(const Scene& scene, bool with_water
 /// Throws common::RunError when they do not come to rest in time.
 void settle(Simulation& simulation, const PackingRules& rules, const std::function<void(double)>& progress);
 
-/// Moves the settled poses and contacts of `packing` over, at rest.
-void take_over(Simulation& simulation, const Simulation& packing);
+/// Takes up settled poses and their contacts, at rest.
+void take_over(Simulation& simulation, const PackedPoses& packed, const std::vector<Pair>& contacts);
 
 /// Mounts the layout. Wires that `earlier` (may be null) already has between the same spheres keep rest length and damage,
 /// unless one of their blocks was put back; new ones take the distance at packing, or the present one in a restart.

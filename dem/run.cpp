@@ -46,6 +46,10 @@ class FlowSource {
         if (!index) throw common::InputError(fmt::format("{}: the flow does not hold t = {} s, where the run starts", folder_.string(), t));
         first_ = *index;
     }
+    /// Throws InputError unless the flow covers the blocks.
+    void require_cover(const Blocks& blocks) {
+        if (has_flow() && !scene_.still_outside) dem::require_cover(flow_grid_of(reader_->first(), false), blocks, folder_.string());
+    }
 
     struct Span {
         double begin, end;
@@ -88,7 +92,7 @@ Start packed_start(const Scene& scene, common::Progress& progress) {
         const auto packing = build_simulation(scene, true);
         if (packing->water() != nullptr) packing->water()->motion = UniformWater{.element_diameter = scene.element.diameter};
         settle(*packing, scene.packing, [&](double t) { progress.update(t, "packing"); });
-        take_over(*start.simulation, *packing);
+        take_over(*start.simulation, poses_of(packing->blocks), packing->memory().pairs);
     }
     start.packed = poses_of(start.simulation->blocks);
     return start;
@@ -97,8 +101,13 @@ Start packed_start(const Scene& scene, common::Progress& progress) {
 Start start_from(const std::filesystem::path& from, const Scene& scene) {
     const Snapshot snapshot = read_start(from, scene);
     Start start{.simulation = build_simulation(scene, true), .packed = snapshot.packed, .t = {}};
-    if (!snapshot.is_packing) start.t = snapshot.t;
-    restore(*start.simulation, snapshot);
+    if (snapshot.is_packing) {
+        take_over(*start.simulation, snapshot.packed, snapshot.memory.pairs);
+        start.packed = poses_of(start.simulation->blocks);
+    } else {
+        start.t = snapshot.t;
+        restore(*start.simulation, snapshot);
+    }
     if (!scene.wires.put_back.empty()) put_back(*start.simulation, scene.wires.put_back, start.packed);
     mount_layout(*start.simulation, scene, start.packed, snapshot.is_packing ? nullptr : &snapshot.wires);
     return start;
@@ -180,6 +189,7 @@ void run(const common::StageCommand& command, const common::SceneFile& file, con
     if (!command.from.empty()) earlier = start_from(command.from, scene);
     const double begin = scene.restart_clock.value_or(earlier && earlier->t ? *earlier->t : flow.begin());
     flow.start_at(begin);
+    flow.require_cover(earlier ? earlier->simulation->blocks : scene.placed);
 
     common::OutputFolder folder(command.out, {.stage = "dem", .scene_digest = digest, .input_digest = input}, command.resume);
     if (folder.start() == common::OutputFolder::Start::nothing_to_do) return;
@@ -197,10 +207,8 @@ void run(const common::StageCommand& command, const common::SceneFile& file, con
         } else {
             start = earlier ? std::move(*earlier) : packed_start(scene, progress);
             if (!earlier) mount_layout(*start.simulation, scene, start.packed, nullptr);
-            if (span && span->grid) {
-                require_cover(*span->grid, start.simulation->blocks, command.upstream.string());
-                start.simulation->water()->motion = *span->grid;
-            }
+            flow.require_cover(start.simulation->blocks);
+            if (span && span->grid && start.simulation->water() != nullptr) start.simulation->water()->motion = *span->grid;
             start.simulation->blocks_were_placed(begin);
             report.set_first_energy(start.simulation->energy());
         }

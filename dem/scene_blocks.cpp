@@ -28,8 +28,8 @@ class ShapeBook {
  public:
     ShapeBook(const SceneFile& file, Scene& scene) : file_(file), scene_(scene) {}
 
-    /// Index of the shape `section.shape` names, or nothing after a mistake.
-    std::optional<int> read(const Section& section) {
+    /// Index of the shape `section.shape` names.
+    int read(const Section& section) {
         const std::string name =
             section.text("shape", "built-in shape or TOML file with [dem.shape]", std::string("beehive96"));
         if (const auto known = index_.find(name); known != index_.end()) return known->second;
@@ -38,7 +38,8 @@ class ShapeBook {
             scene_.placed.shapes.push_back(make_shape(description, scene_.element, scene_.water.density));
         } catch (const std::exception& error) {
             section.problem("shape", error.what());
-            return {};
+            // A stand-in, so that the rest of the scene is read and its mistakes are told as well.
+            scene_.placed.shapes.push_back(make_shape(find_shape("beehive96", "."), scene_.element, scene_.water.density));
         }
         return index_[name] = static_cast<int>(scene_.placed.shapes.size()) - 1;
     }
@@ -51,7 +52,7 @@ class ShapeBook {
 
 void read_single_blocks(const Section& dem, ShapeBook& book, Scene& scene) {
     for (const Section& entry : dem.tables("block")) {
-        const auto shape = book.read(entry);
+        const int shape = book.read(entry);
         const auto position = entry.numbers("position", "m", "centre of mass", 3, Range::any());
         const auto turn = entry.numbers("orientation", "-", "quaternion w, x, y, z", 4, Range::any(),
                                         std::vector<double>{1, 0, 0, 0});
@@ -64,10 +65,9 @@ void read_single_blocks(const Section& dem, ShapeBook& book, Scene& scene) {
             entry.problem("orientation", "expected a quaternion other than zero");
             continue;
         }
-        if (!shape) continue;
         const Quaternion body = orientation.normalized() *
-                                scene.placed.shapes[static_cast<std::size_t>(*shape)].body_from_file.conjugate();
-        scene.placed.add(*shape, Vector(position[0], position[1], position[2]), body, fixed,
+                                scene.placed.shapes[static_cast<std::size_t>(shape)].body_from_file.conjugate();
+        scene.placed.add(shape, Vector(position[0], position[1], position[2]), body, fixed,
                          Vector(velocity[0], velocity[1], velocity[2]), Vector(spin[0], spin[1], spin[2]));
     }
 }
@@ -131,13 +131,12 @@ MoundDescription read_mound(const Section& dem, const Scene& scene, double block
 }
 
 /// Row by row from the shore, row 1 at `origin`, each row a pitch further offshore, columns towards larger y.
-void read_armour(const Section& dem, ShapeBook& book, Scene& scene, std::optional<int>& shape, double& block_height) {
+int read_armour(const Section& dem, ShapeBook& book, Scene& scene) {
     const Section blocks = dem.table("blocks");
-    shape = book.read(blocks);
-    if (!shape) return;
-    block_height = scene.placed.shapes[static_cast<std::size_t>(*shape)].height;
+    const int shape = book.read(blocks);
     scene.rows = static_cast<std::size_t>(blocks.integer("rows", "across the breakwater", Range::between(1, 10000)));
     scene.columns = static_cast<std::size_t>(blocks.integer("columns", "along the breakwater", Range::between(1, 10000)));
+    return shape;
 }
 
 void place_armour(const Section& dem, Scene& scene, int shape, const FixedSpheres& mound) {
@@ -151,7 +150,7 @@ void place_armour(const Section& dem, Scene& scene, int shape, const FixedSphere
     const double level = has_level ? blocks.number("level", "m", "height of all centres; default: just above the mound", Range::any(), 0.0) : 0;
     const auto layers = static_cast<std::size_t>(blocks.integer("layers", "on top of each other", Range::between(1, 100), 1));
     scene.displaced_volume = blocks.number("displaced_volume", "m3", "water displaced by one block; 0: by its elements", Range::not_negative(), 0.0);
-    if (!has_level && mound.empty()) blocks.problem("level", "required where there is no mound: height of the blocks' centres");
+    if (!has_level && !dem.is_table("mound")) blocks.problem("level", "required where there is no mound: height of the blocks' centres");
     const ArmourPlan plan{.shape = shape,
                           .rows = scene.rows,
                           .columns = scene.columns,
@@ -173,7 +172,10 @@ void read_blocks(const SceneFile& file, Scene& scene) {
     read_walls(dem, scene);
     double block_height = 3 * scene.element.diameter;
     std::optional<int> armour;
-    if (dem.has("blocks")) read_armour(dem, book, scene, armour, block_height);
+    if (dem.has("blocks")) {
+        armour = read_armour(dem, book, scene);
+        block_height = scene.placed.shapes[static_cast<std::size_t>(*armour)].height;
+    }
 
     std::vector<Vector> fixed = vectors(dem.rows("fixed_spheres", "m", "centres of fixed spheres of diameter d", 3,
                                                  std::vector<std::vector<double>>{}));
@@ -196,6 +198,18 @@ void read_blocks(const SceneFile& file, Scene& scene) {
                                           armour ? "settle" : "none") == "settle";
     scene.packing.longest = packing.number("longest", "s", "packing gives up after", Range::positive(), 5.0);
     scene.packing.speed = packing.number("speed", "m/s", "slower blocks have settled", Range::positive(), 1e-3);
+
+    for (std::size_t i = 0; i < scene.placed.size(); ++i) {
+        const Vector& p = scene.placed.position[i];
+        const double top = scene.surroundings.fixed_spheres.highest_near(p.x(), p.y(), 0.75 * scene.element.diameter);
+        if (scene.placed.is_fixed[i] || p.z() >= top) continue;
+        const auto tables = dem.tables("block");
+        const std::string message = fmt::format("block {} starts inside the mound: its centre is at z = {:.4g} m, the mound there reaches {:.4g} m",
+                                                i + 1, p.z(), top + 0.5 * scene.element.diameter);
+        if (i >= placed_singly) tables[i - placed_singly].problem("position", message);
+        else dem.table("blocks").problem("level", message);
+        return;
+    }
 
     const double allowed = scene.step.element_overlap_allowed * scene.element.diameter;
     if (const auto clash = deepest_overlap(scene.placed, scene.surroundings); clash.depth > allowed) {

@@ -161,6 +161,7 @@ void read_wires(const SceneFile& file, const SceneFile* layout, Scene& scene) {
     scene.wires.stiffness = home("stiffness").number(
         "stiffness", "N/m", "k_n of a wire; default: Hertz stiffness at dem.reference_overlap", Range::positive(),
         scene.material.hertz_stiffness(scene.element.diameter / 4, scene.reference_overlap));
+    if (layout != nullptr) own.keys();  // the scene's own links stand aside: known, but not read
     LinkReader reader(scene);
     for (const Section& entry : links.tables("link")) reader.single(entry);
     for (const Section& entry : links.tables("along")) reader.along(entry);

@@ -178,6 +178,16 @@ void Simulation::check_values() const {
         if (!blocks.position[i].allFinite() || !blocks.velocity[i].allFinite() ||
             !blocks.orientation[i].coeffs().allFinite() || !blocks.angular_momentum[i].allFinite())
             throw common::RunError(fmt::format("t = {:.5f} s: the motion of block {} is no longer finite", time_, i + 1));
+    // Below everything that could hold it, a block would fall for ever.
+    if (surroundings_.fixed_spheres.empty() || !surroundings_.planes.empty()) {
+        bool has_floor = surroundings_.fixed_spheres.empty();
+        for (const auto& plane : surroundings_.planes) has_floor = has_floor || plane.normal.dot(gravity_) < -0.1 * gravity_.norm();
+        if (has_floor) return;
+    }
+    for (const auto i : awake_)
+        if (blocks.position[i].z() < surroundings_.fixed_spheres.lowest() - 4 * blocks.shape_of(i).radius)
+            throw common::RunError(fmt::format("t = {:.5f} s: block {} has left the mound at x = {:.3f}, y = {:.3f} m and falls; extend dem.mound.profile",
+                                               time_, i + 1, blocks.position[i].x(), blocks.position[i].y()));
 }
 
 void Simulation::find_awake() {

@@ -1,0 +1,104 @@
+"""Same bytes for one and two threads, with and without an interruption, and for any window length; restarts with changes."""
+import os
+import signal
+import subprocess
+import tempfile
+import time
+
+import h5py
+import numpy as np
+
+from dem_flow import standing_wave, write_flow
+from dem_program import DEM, Checks, run
+
+check = Checks()
+SCENE = """
+[time]
+end = 2.0
+window = 0.25
+[dem]
+width = 0.2
+planes = [{ point = [1.0, 0.0, 0.0], normal = [-1.0, 0.0, 0.0] }]
+[dem.blocks]
+shape = "beehive96"
+rows = 3
+columns = 4
+origin = [0.925, 0.025]
+pitch = [0.05, 0.05]
+fixed_rows = 1
+[dem.mound]
+profile = [[0.6, -0.2], [1.0, -0.2]]
+roughness = 0.008
+[wires]
+psi = 0.3
+[[wires.along]]
+rows = [3]
+"""
+flow = tempfile.mkdtemp(prefix="tsunagi_flow_")
+wave = standing_wave(0.25, 1.2, 0.3, 1.0)
+write_flow(flow, wave, np.linspace(0.5, 1.0, 26), np.linspace(-0.3, 0.2, 26), 0.0, 2.0, 0.25, 0.025)
+
+whole = run(SCENE, "--flow", flow)
+check.true("runs", whole.status == 0, whole.message)
+moved = whole.series("/blocks/displacement")[-1, :12, 0].max()
+check.true("blocks move in this test", moved > 0.001, f"{moved * 1e3:.2f} mm")
+
+two = run(SCENE, "--flow", flow, "--threads", "2")
+check.true("two threads write the same bytes as one", two.windows() == whole.windows())
+
+# Killed without warning in the middle, then resumed.
+base = tempfile.mkdtemp(prefix="tsunagi_dem_")
+with open(os.path.join(base, "scene.toml"), "w") as f:
+    f.write(SCENE)
+out = os.path.join(base, "out")
+process = subprocess.Popen([DEM, "run", os.path.join(base, "scene.toml"), "--out", out, "--flow", flow, "--quiet"])
+while not os.path.exists(os.path.join(out, "window_000002.h5")) and process.poll() is None:
+    time.sleep(0.002)
+process.send_signal(signal.SIGKILL)
+process.wait()
+before = len([n for n in os.listdir(out) if n.startswith("window_")])
+resumed = run(SCENE, "--flow", flow, "--resume", folder=base)
+check.true("killed run had windows left to do", before < 8, f"{before} of 8")
+check.true("killed and resumed: same bytes", resumed.windows() == whole.windows(), resumed.message)
+
+# The exchange window is only how the result is cut up.
+long_flow = tempfile.mkdtemp(prefix="tsunagi_flow_")
+write_flow(long_flow, wave, np.linspace(0.5, 1.0, 26), np.linspace(-0.3, 0.2, 26), 0.0, 2.0, 2.0, 0.025)
+one = run(SCENE, "--flow", long_flow)
+# Not to the bit: the two flows' own time axes differ by rounding.
+check.below("one window of 2 s and eight of 0.25 s: difference of positions",
+            np.abs(one.series("/blocks/position") - whole.series("/blocks/position")).max(), 1e-10, "m")
+
+# A finished run is not run again; another scene in the same folder is.
+again = run(SCENE, "--flow", flow, folder=base)
+check.true("a finished run is left alone", again.status == 0 and again.windows() == whole.windows())
+
+# Packing stored and used again.
+packed = run(SCENE, verb="pack")
+check.true("packs", packed.status == 0, packed.message)
+from_packing = run(SCENE, "--flow", flow, "--from", os.path.join(packed.folder, "state.h5"))
+check.true("a run from the stored packing equals one that packs itself",
+           np.array_equal(from_packing.series("/blocks/position"), whole.series("/blocks/position")), from_packing.message)
+
+# Restart with changes: row 3 put back, links along row 2 added, from a stored instant inside a window.
+LAYOUT = "[wires.put_back]\nrows = [3]\n[[wires.along]]\nrows = [2, 3]\n"
+layout = os.path.join(base, "layout.toml")
+with open(layout, "w") as f:
+    f.write(LAYOUT)
+changed = run(SCENE + "\n[dem.restart]\ntime = 0.9\n", "--flow", flow, "--wires", layout, "--from",
+              os.path.join(whole.folder, "window_000003.h5"))
+check.true("restart with changes runs", changed.status == 0, changed.message)
+times, x = changed.series("/time"), changed.series("/blocks/position")
+check.below("restart begins at the stored instant", abs(times[0] - 0.9), 1e-9, "s")
+with h5py.File(os.path.join(whole.folder, "geometry.h5")) as f:
+    home = f["/packed/position"][:]
+check.below("blocks put back stand at their packed place in plan", np.abs(x[0, 8:12, :2] - home[8:12, :2]).max(), 1e-12, "m")
+check.true("and no lower than it", bool((x[0, 8:12, 2] >= home[8:12, 2] - 1e-12).all()))
+at = np.argmin(np.abs(whole.series("/time") - 0.9))
+check.true("the others stay where they were", np.array_equal(x[0, :8], whole.series("/blocks/position")[at, :8]))
+check.true("links were added", changed.figure("wires.count") == 2 * whole.figure("wires.count"))
+
+# Slack: wires longer than the packed distance carry nothing until the slack is used up.
+slack = run(SCENE.replace("rows = [3]", "rows = [3]\nslack = 0.05"), "--flow", flow)
+check.true("slack wires never pull here", slack.status == 0 and slack.figure("wires.largest_tension") == 0.0, slack.message)
+check.end()
