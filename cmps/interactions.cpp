@@ -31,53 +31,57 @@ void compute_interactions(const Kernel& kernel, const Particles& particles, cons
     double* const all_w = out.weight.data();
     double* const all_g = out.weight_over_r2.data();
 
-    common::parallel_for(rows, serial_below, [&](std::size_t r) {
-        const double xi = x[first + r], zi = z[first + r];
+    // Block by block, so that a block's pairs stay in cache from the first loop to the last.
+    constexpr std::size_t block = 64;  // rows; about 1700 pairs, 80 kB
+    common::parallel_for((rows + block - 1) / block, serial_below / block, [&](std::size_t b) {
+        const std::size_t row0 = b * block, row1 = std::min(rows, row0 + block);
+        const std::uint32_t from = lists.start[row0], to = lists.start[row1];
+        for (std::size_t r = row0; r < row1; ++r) {
+            const double xi = x[first + r], zi = z[first + r];
 #pragma omp simd
-        for (std::uint32_t k = lists.start[r]; k < lists.start[r + 1]; ++k) {
-            all_dx[k] = x[neighbour[k]] - xi;
-            all_dz[k] = z[neighbour[k]] - zi;
+            for (std::uint32_t k = lists.start[r]; k < lists.start[r + 1]; ++k) {
+                all_dx[k] = x[neighbour[k]] - xi;
+                all_dz[k] = z[neighbour[k]] - zi;
+            }
         }
-    });
-    // one flat run over all entries: roots and divisions stay vectorised whatever the rows' lengths
-    out.weight_over_r.resize(entries);
-    double* const all_over_r = out.weight_over_r.data();
-    constexpr std::size_t block = 4096;  // entries; small enough to stay in cache between the two loops
-    common::parallel_for((entries + block - 1) / block, 8, [&](std::size_t b) {
-        const std::size_t end = std::min(entries, (b + 1) * block);
+        // one flat run: roots and divisions stay vectorised whatever the rows' lengths
+        thread_local std::vector<double> over_r_store;
+        over_r_store.resize(to - from);
+        double* const over_r = over_r_store.data() - from;  // w / r
 #pragma omp simd
-        for (std::size_t k = b * block; k < end; ++k) {
+        for (std::uint32_t k = from; k < to; ++k) {
             const double r2 = all_dx[k] * all_dx[k] + all_dz[k] * all_dz[k], r = std::sqrt(r2);
-            const double w = kernel.weight(r2), over_r = w / r;
-            all_w[k] = w, all_over_r[k] = over_r, all_g[k] = over_r / r;
+            const double w = kernel.weight(r2), ratio = w / r;
+            all_w[k] = w, over_r[k] = ratio, all_g[k] = ratio / r;
         }
-    });
-    common::parallel_for(rows, serial_below, [&](std::size_t r) {
-        const std::uint32_t begin = lists.start[r], carriers = lists.carriers[r], end = lists.start[r + 1];
-        double n = 0, fx = 0, fz = 0, sx = 0, sz = 0;
+        for (std::size_t r = row0; r < row1; ++r) {
+            const std::uint32_t begin = lists.start[r], carriers = lists.carriers[r], end = lists.start[r + 1];
+            double n = 0, fx = 0, fz = 0, sx = 0, sz = 0;
 #pragma omp simd reduction(+ : n, fx, fz, sx, sz)
-        for (std::uint32_t k = begin; k < end; ++k) {
-            const double dx = all_dx[k], dz = all_dz[k];
-            n += all_w[k], fx += all_over_r[k] * dx, fz += all_over_r[k] * dz, sx += all_g[k] * dx, sz += all_g[k] * dz;
-        }
-        double xx = 0, xz = 0, zz = 0;
+            for (std::uint32_t k = begin; k < end; ++k) {
+                const double dx = all_dx[k], dz = all_dz[k];
+                n += all_w[k], fx += over_r[k] * dx, fz += over_r[k] * dz, sx += all_g[k] * dx, sz += all_g[k] * dz;
+            }
+            double xx = 0, xz = 0, zz = 0;
 #pragma omp simd reduction(+ : xx, xz, zz)
-        for (std::uint32_t k = carriers; k < end; ++k) {
-            const double g = all_g[k], dx = all_dx[k], dz = all_dz[k];
-            xx += g * dx * dx, xz += g * dx * dz, zz += g * dz * dz;
+            for (std::uint32_t k = carriers; k < end; ++k) {
+                const double g = all_g[k], dx = all_dx[k], dz = all_dz[k];
+                xx += g * dx * dx, xz += g * dx * dz, zz += g * dz * dz;
+            }
+            out.number_density[r] = n;
+            out.asymmetry_x[r] = fx, out.asymmetry_z[r] = fz;
+            out.crowding_x[r] = sx, out.crowding_z[r] = sz;
+            out.moment_xx[r] = xx, out.moment_xz[r] = xz, out.moment_zz[r] = zz;
         }
-        out.number_density[r] = n;
-        out.asymmetry_x[r] = fx, out.asymmetry_z[r] = fz;
-        out.crowding_x[r] = sx, out.crowding_z[r] = sz;
-        out.moment_xx[r] = xx, out.moment_xz[r] = xz, out.moment_zz[r] = zz;
+        if (extras.slope)
+#pragma omp simd
+            for (std::uint32_t k = from; k < to; ++k)
+                out.slope[k] = kernel.slope(all_dx[k] * all_dx[k] + all_dz[k] * all_dz[k]);
+        if (extras.curvature)
+#pragma omp simd
+            for (std::uint32_t k = from; k < to; ++k)
+                out.curvature[k] = kernel.curvature(all_dx[k] * all_dx[k] + all_dz[k] * all_dz[k]);
     });
-    const auto add = [&](std::vector<double>& values, const auto& of_r2) {
-        common::parallel_for(entries, 50000, [&](std::size_t k) {
-            values[k] = of_r2(all_dx[k] * all_dx[k] + all_dz[k] * all_dz[k]);
-        });
-    };
-    if (extras.slope) add(out.slope, [&](double r2) { return kernel.slope(r2); });
-    if (extras.curvature) add(out.curvature, [&](double r2) { return kernel.curvature(r2); });
 }
 
 template void compute_interactions(const RationalKernel&, const Particles&, const NeighbourLists&, PairExtras, Interactions&);

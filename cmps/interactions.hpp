@@ -9,10 +9,10 @@
 
 namespace cmps {
 
-/// Per list entry (i, j): r_ij = r_j - r_i, w, w/r, w/r^2 and, where a term asks for it, w'/r. Zero beyond the radius.
+/// Per list entry (i, j): r_ij = r_j - r_i, w, w/r^2 and, where a term asks for it, w'/r. Zero beyond the radius.
 /// Per row: sums that the terms share.
 struct Interactions {
-    std::vector<double> dx, dz, weight, weight_over_r, weight_over_r2;
+    std::vector<double> dx, dz, weight, weight_over_r2;
     std::vector<double> slope;      ///< w'/r; empty unless asked for
     std::vector<double> curvature;  ///< w'' - w'/r; empty unless asked for
 

@@ -110,7 +110,18 @@ void NearField::solve_pressure(double step) {
     const std::size_t first = particles.first_wall(), unknowns = equation.row_of.size();
     unknown_pressure_.resize(unknowns);
     for (std::size_t a = 0; a < unknowns; ++a) unknown_pressure_[a] = particles.pressure[first + equation.row_of[a]];
-    const SolveReport report = solver_.solve(equation.matrix, equation.right_hand_side, unknown_pressure_);
+    SolveReport report;
+    if (unknowns < settings.multigrid_from) {
+        report = solver_.solve(equation.matrix, equation.right_hand_side, unknown_pressure_);
+    } else {
+        unknown_x_.resize(unknowns), unknown_z_.resize(unknowns);
+        for (std::size_t a = 0; a < unknowns; ++a) {
+            unknown_x_[a] = particles.x[first + equation.row_of[a]];
+            unknown_z_[a] = particles.z[first + equation.row_of[a]];
+        }
+        report = solver_.solve(equation.matrix, equation.right_hand_side, unknown_pressure_, unknown_x_, unknown_z_,
+                               2.0 * settings.spacing);
+    }
     counts.iterations += report.iterations;
     if (!report.is_converged) ++counts.unconverged;
     std::fill(particles.pressure.begin(), particles.pressure.end(), 0.0);

@@ -84,7 +84,7 @@ class NearField {
     std::variant<RationalKernel, WendlandKernel> kernel_;
     PressureSolver solver_;
     GradientTerm gradient_;
-    std::vector<double> gradient_x_, gradient_z_, unknown_pressure_, old_u_, old_w_, change_u_, change_w_;
+    std::vector<double> gradient_x_, gradient_z_, unknown_pressure_, unknown_x_, unknown_z_, old_u_, old_w_, change_u_, change_w_;
     double largest_speed_ = 0, largest_acceleration_ = 0;
 
  public:

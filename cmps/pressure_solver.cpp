@@ -52,6 +52,20 @@ void IncompleteCholesky::apply(const std::vector<double>& r, std::vector<double>
 }
 
 SolveReport PressureSolver::solve(const SparseMatrix& matrix, const std::vector<double>& b, std::vector<double>& x) {
+    return iterate(
+        matrix, b, x, [&] { cholesky_.factorise(matrix); }, [&](const auto& r, auto& z) { cholesky_.apply(r, z); });
+}
+
+SolveReport PressureSolver::solve(const SparseMatrix& matrix, const std::vector<double>& b, std::vector<double>& x,
+                                  const std::vector<double>& at_x, const std::vector<double>& at_z, double box) {
+    return iterate(
+        matrix, b, x, [&] { multigrid_.build(matrix, at_x, at_z, box); },
+        [&](const auto& r, auto& z) { multigrid_.apply(r, z); });
+}
+
+template <class Build, class Apply>
+SolveReport PressureSolver::iterate(const SparseMatrix& matrix, const std::vector<double>& b, std::vector<double>& x,
+                                    const Build& build, const Apply& apply) {
     const std::size_t rows = matrix.rows();
     SolveReport report;
     if (rows == 0) return {.iterations = 0, .residual = 0, .is_converged = true};
@@ -65,10 +79,10 @@ SolveReport PressureSolver::solve(const SparseMatrix& matrix, const std::vector<
     for (std::size_t i = 0; i < rows; ++i) residual_[i] = b[i] - product_[i];
     double norm = std::sqrt(dot(residual_, residual_));
     if (norm > target) {
-        cholesky_.factorise(matrix);
+        build();
         double previous = 0;
         while (norm > target && report.iterations < most_iterations_) {
-            cholesky_.apply(residual_, preconditioned_);
+            apply(residual_, preconditioned_);
             const double rz = dot(residual_, preconditioned_);
             const double beta = report.iterations ? rz / previous : 0.0;
             previous = rz;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "cmps/multigrid.hpp"
 #include "cmps/sparse_matrix.hpp"
 
 namespace cmps {
@@ -33,12 +34,20 @@ class PressureSolver {
  public:
     PressureSolver(double tolerance, std::size_t most_iterations)
         : tolerance_(tolerance), most_iterations_(most_iterations) {}
+    /// With incomplete Cholesky.
     SolveReport solve(const SparseMatrix& matrix, const std::vector<double>& b, std::vector<double>& x);
+    /// With multigrid; at_x, at_z: place of every unknown, `box`: edge of the finest boxes, m.
+    SolveReport solve(const SparseMatrix& matrix, const std::vector<double>& b, std::vector<double>& x,
+                      const std::vector<double>& at_x, const std::vector<double>& at_z, double box);
 
  private:
+    template <class Build, class Apply>
+    SolveReport iterate(const SparseMatrix& matrix, const std::vector<double>& b, std::vector<double>& x,
+                        const Build& build, const Apply& apply);
     double tolerance_;
     std::size_t most_iterations_;
     IncompleteCholesky cholesky_;
+    Multigrid multigrid_;
     std::vector<double> residual_, direction_, product_, preconditioned_;
 };
 

@@ -100,6 +100,7 @@ void read_numerics(const common::SceneFile& file, const Section& section, Scene&
     settings.pressure.density = section.number("density", "kg/m3", "of water", Range::positive(), 1000.0);
     settings.negative_pressure = section.boolean("negative_pressure", "keep pressures below zero", false);
     settings.tolerance = section.number("tolerance", "-", "of the pressure solve, relative to its right-hand side", Range::between(1e-12, 0.1), 1e-3);
+    settings.multigrid_from = static_cast<std::size_t>(section.integer("multigrid_from", "unknowns from which the pressure is preconditioned by multigrid", Range::not_negative(), 10000));
     settings.shifting = section.number("shifting", "-", "coefficient of particle shifting, 0: none", Range::between(0, 1), 0.3);
     settings.stabilisation = section.number("stabilisation", "-", "pairs nearer than this many l0 are pushed apart, 0: none", Range::between(0, 0.98), 0.9);
     settings.courant = section.number("courant", "-", "largest u dt / l0", Range::between(0.001, 0.5), 0.2);

@@ -64,6 +64,25 @@ TEST(PressureSolver, AgreesWithADirectSolve) {
     EXPECT_LT(std::sqrt(error / size), 1e-9);  // tolerance times the condition number
 }
 
+TEST(PressureSolver, MultigridFindsTheSameSolutionInFewIterations) {
+    System system(0.005);  // 2400 unknowns: two levels above the direct solve
+    const auto& equation = system.field.equation;
+    const auto& particles = system.field.particles;
+    std::vector<double> x(equation.matrix.rows(), 0.0), expected = x, at_x, at_z;
+    for (const auto row : equation.row_of) {
+        at_x.push_back(particles.x[particles.first_wall() + static_cast<std::size_t>(row)]);
+        at_z.push_back(particles.z[particles.first_wall() + static_cast<std::size_t>(row)]);
+    }
+    cmps::PressureSolver solver(1e-10, 1000);
+    const auto cholesky = solver.solve(equation.matrix, equation.right_hand_side, expected);
+    const auto multigrid = solver.solve(equation.matrix, equation.right_hand_side, x, at_x, at_z, 0.01);
+    EXPECT_TRUE(multigrid.is_converged);
+    EXPECT_LT(multigrid.iterations, cholesky.iterations);
+    double error = 0, size = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) error += std::pow(x[i] - expected[i], 2), size += expected[i] * expected[i];
+    EXPECT_LT(std::sqrt(error / size), 1e-6);  // tolerance times the condition number of about 2000
+}
+
 TEST(PressureSolver, StopsAtOnceFromTheSolution) {
     System system(0.02);
     const auto& equation = system.field.equation;
