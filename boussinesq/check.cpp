@@ -11,6 +11,35 @@
 
 namespace boussinesq {
 
+namespace {
+
+/// Measured errors (workflows/studies/cost_boussinesq.py), by cells per wave length: relative, at the
+/// defaults.
+struct Measured {
+    double cells_per_length, error;
+};
+constexpr Measured level_bed[] = {
+    {18.5, 2.7e-2}, {37.0, 2.9e-3}, {74.0, 3.5e-4}, {148.0, 4.6e-5}};                 // dispersion
+constexpr Measured uneven_bed[] = {{37.4, 8.9e-2}, {74.8, 2.0e-2}, {149.6, 1.9e-3}};  // bar
+
+/// Power law through the two nearest measurements.
+template <std::size_t count>
+double interpolated(const Measured (&table)[count], double cells_per_length) {
+    std::size_t i = 0;
+    while (i + 2 < count && cells_per_length > table[i + 1].cells_per_length) ++i;
+    const double order = std::log(table[i].error / table[i + 1].error) /
+                         std::log(table[i + 1].cells_per_length / table[i].cells_per_length);
+    return table[i].error * std::pow(table[i].cells_per_length / cells_per_length, order);
+}
+
+bool is_level(const Scene& scene) {
+    for (const auto& point : scene.bed)
+        if (std::abs(point[1] - scene.bed.front()[1]) > 0.05 * scene.waves.depth) return false;
+    return true;
+}
+
+}  // namespace
+
 Forecast forecast(const Scene& scene) {
     Simulation simulation = build_simulation(scene);
     const double cells = static_cast<double>(scene.grid.cells);
@@ -40,6 +69,15 @@ Forecast forecast(const Scene& scene) {
     // Writing: 16 ns per value and a few ms per window, measured with checksums and fsync.
     result.seconds = 1e-9 * nanoseconds * result.steps * cells + samples * cells * 16e-9 + windows * 4e-3;
     result.memory = 22e6 + cells * 200.0 + samples / windows * cells * 32.0;
+    if (scene.waves.length > 0) {
+        const double cells_per_length = scene.waves.length / scene.grid.spacing;
+        const bool level = is_level(scene);
+        result.relative_error =
+            level ? interpolated(level_bed, cells_per_length) : interpolated(uneven_bed, cells_per_length);
+        result.error_from =
+            fmt::format("{:.0f} cells a wave length {}", cells_per_length,
+                        level ? "over a level bed" : "over an uneven bed, as over the bar of the cost study");
+    }
     return result;
 }
 
@@ -53,6 +91,9 @@ void print_check(const common::SceneFile& file, const Scene& scene, bool all) {
         "on this machine ({:.0f} ns per cell and step)\n  memory       about {:.0f} MB\n",
         scene.grid.cells, scene.grid.spacing, expected.steps, expected.seconds,
         expected.nanoseconds_per_cell_step, 1e-6 * expected.memory);
+    if (expected.relative_error > 0)
+        fmt::print("  error        about {:.1g} of the wave height ({})\n", expected.relative_error,
+                   expected.error_from);
     if (all) fmt::print("\n{}", file.reference());
 }
 

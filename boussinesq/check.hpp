@@ -1,6 +1,8 @@
 /// `boussinesq check`: what would be simulated, why, how long it takes and how accurate it is.
 #pragma once
 
+#include <string>
+
 #include "boussinesq/scene.hpp"
 #include "common/scene_file.hpp"
 
@@ -8,8 +10,9 @@ namespace boussinesq {
 
 struct Forecast {
     double steps, seconds, nanoseconds_per_cell_step;
-    double memory;          ///< bytes
-    double relative_error;  ///< expected, of wave height; from the cost study
+    double memory;           ///< bytes
+    double relative_error;   ///< expected, of the wave; from the cost study
+    std::string error_from;  ///< which of its cases
 };
 /// Times a few hundred steps of the scene's own flume on this machine.
 Forecast forecast(const Scene& scene);

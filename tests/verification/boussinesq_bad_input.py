@@ -40,7 +40,7 @@ def bed(folder):
     refuse(folder, "[[0.0, -0.8], [15.0, -0.8], [23.0, -0.4], [50.0, -0.4]]", "[[0.0, -0.8]]", "flume.bed", "two points")
     refuse(folder, "[[0.0, -0.8], [15.0", "[[0.0, 0.1], [15.0", "flume.bed", "below still water")
     refuse(folder, "[15.0, -0.8]", "[3.0, -0.3]", "flume.bed", "level where waves are made")
-    refuse(folder, "[[0.0, -0.8], [15.0, -0.8], [23.0, -0.4], [50.0, -0.4]]", "[[0.0, -0.8], [4.0, -0.8]]", "flume.bed", "too short")
+    refuse(folder, "period = 1.65", "period = 9.0", "flume.bed", "too short")
 
 
 @test

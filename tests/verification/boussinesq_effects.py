@@ -71,7 +71,7 @@ def shoreline(folder):
     scene = write_scene(folder, text, "off.toml")
     run("boussinesq", "run", scene, "--out", folder / "off", "--quiet", "--set", "effects.shoreline=off").expect_error(2, "shoreline", "off")
 
-    text = flume(LEVEL, SHORT_WAVES, 30.0)
+    text = flume(LEVEL, SHORT_WAVES, 30.0, more="spacing = 0.05\ncourant = 0.5")
     check(not effect(run_scene(folder, text, "deep"), "shoreline"), "auto takes the shoreline in where the bed stays wet")
     run_scene(folder, text, "deep_on", "--set", "effects.shoreline=on")
     check_below("deep water: auto and on differ by", abs(elevation(folder, "deep") - elevation(folder, "deep_on")).max(), 1e-6, "m", "float32 of rounding")

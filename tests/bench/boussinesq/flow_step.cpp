@@ -2,6 +2,7 @@
 // bytes per cell.
 #include <benchmark/benchmark.h>
 
+#include <cmath>
 #include <memory>
 
 #include "boussinesq/effects/breaking.hpp"

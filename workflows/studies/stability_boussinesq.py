@@ -1,0 +1,93 @@
+"""Stability map of boussinesq: step size (Courant number) over cell size, for waves breaking on a 1:10 beach.
+
+    make -C workflows stability        (SMOKE=1: the corners only)
+
+Each run is judged: stable (done, invariants hold, no wave above twice the incident one offshore), noticed (the run
+stopped itself with a message), refused (before anything ran) or unstable (neither). Writes stability_boussinesq.csv and
+stability_boussinesq.png.
+"""
+import argparse
+import csv
+import os
+import pathlib
+import subprocess
+import sys
+
+import numpy
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import run_folder  # noqa: E402
+
+DEPTH, HEIGHT = 0.6, 0.15
+SCENE = f"""
+[time]
+end = 40.0
+window = 40.0
+[flume]
+bed = [[0.0, {-DEPTH}], [14.0, {-DEPTH}], [24.0, 0.4]]
+[waves]
+kind = "regular"
+height = {HEIGHT}
+period = 2.0
+[boussinesq]
+output_interval = 0.1
+"""
+VERDICTS = {"stable": "#3a7d44", "noticed": "#e0b030", "refused": "#b8b4ac", "unstable": "#c03020"}
+
+
+def judge(options, scene, folder, spacing, courant):
+    command = [str(options.bin / "boussinesq"), "run", str(scene), "--out", str(folder), "--quiet", "--set", f"boussinesq.spacing={spacing}", "--set", f"boussinesq.courant={courant}"]
+    ended = subprocess.run(command, capture_output=True, text=True)
+    if ended.returncode == 2:
+        return "refused", float("nan")
+    if ended.returncode == 1:
+        return "noticed", float("nan")
+    record = run_folder.read_run(folder)
+    _, elevation = run_folder.read_series(folder, "/surface_elevation")
+    x = run_folder.static(folder, "/x")
+    offshore = elevation[:, (x > 6) & (x < 13)]
+    height = float((offshore.max(0) - offshore.min(0)).max() / HEIGHT)
+    holds = all(entry["holds"] for entry in record["invariants"].values())
+    return ("stable" if holds and numpy.isfinite(elevation).all() and height < 2.0 else "unstable"), height
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--bin", required=True, type=pathlib.Path)
+    parser.add_argument("--out", required=True, type=pathlib.Path)
+    parser.add_argument("--scene", type=pathlib.Path, help="not used")
+    parser.add_argument("--smoke", action="store_true")
+    options = parser.parse_args()
+    os.environ.setdefault("OMP_WAIT_POLICY", "passive")
+    out = options.out / "stability_boussinesq"
+    out.mkdir(parents=True, exist_ok=True)
+    scene = out / "beach.toml"
+    scene.write_text(SCENE)
+    spacings = (0.2, 0.05) if options.smoke else (0.4, 0.2, 0.1, 0.05, 0.025, 0.0125)
+    courants = (0.5, 1.0) if options.smoke else (0.1, 0.25, 0.5, 0.7, 0.8, 0.9, 1.0, 1.1)
+    rows = []
+    for spacing in spacings:
+        for courant in courants:
+            verdict, height = judge(options, scene, out / "run", spacing, courant)
+            rows.append({"spacing_over_depth": spacing / DEPTH, "courant": courant, "verdict": verdict, "largest_height_over_incident": height})
+            print(f"dx/h {spacing / DEPTH:.3f}  Courant {courant:.2f}  {verdict}  {height:.2f}", flush=True)
+    with open(options.out / "stability_boussinesq.csv", "w", newline="") as file:
+        writer = csv.DictWriter(file, list(rows[0]))
+        writer.writeheader()
+        writer.writerows(rows)
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as pyplot
+    figure, axis = pyplot.subplots(figsize=(5.5, 4))
+    for verdict, colour in VERDICTS.items():
+        shown = [row for row in rows if row["verdict"] == verdict]
+        axis.loglog([row["spacing_over_depth"] for row in shown], [row["courant"] for row in shown], "s", color=colour, markersize=12, label=verdict)
+    axis.set(xlabel="cell size over depth", ylabel="Courant number", title="boussinesq: waves breaking on 1:10")
+    axis.legend(fontsize=7)
+    figure.tight_layout()
+    figure.savefig(options.out / "stability_boussinesq.png", dpi=130)
+    print(options.out / "stability_boussinesq.png")
+
+
+if __name__ == "__main__":
+    main()
