@@ -40,6 +40,7 @@ class FluidLoads final : public Load {
     std::variant<UniformWater, FlowGrid> motion;
     double work = 0;        ///< done by the water on blocks, buoyancy and added mass included, J
     double gross_work = 0;  ///< the same in absolute value, J
+    double waves_reach_blocks = -1;  ///< first time the water at some block is faster than 0.1 m/s, s; -1: not yet
 
  private:
     FluidProperties properties_;

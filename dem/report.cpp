@@ -19,6 +19,11 @@ Report::Report(const std::filesystem::path& folder, const common::SceneFile& fil
     record_.write_running();
 }
 
+void Report::add_time(const std::string& phase, double seconds) {
+    record_.add_phase_time(phase, seconds);
+    if (phase == "steps") stepping_seconds_ += seconds;
+}
+
 void Report::set_first_energy(const EnergyBudget& energy) {
     first_balance_ = energy.balance();
     first_size_ = energy.kinetic + energy.contacts + energy.wires;
@@ -43,6 +48,8 @@ void Report::window_done(const Simulation& simulation, const PackedPoses& packed
     record_.set_figure("deep_contact_steps", static_cast<double>(simulation.deep_contact_steps()));
     record_.set_figure("time_step_limit", smallest_limit_);
     record_.set_figure("steps", static_cast<double>(simulation.steps()));
+    if (simulation.awake_block_steps() > 0)
+        record_.set_figure("nanoseconds_per_awake_block_step", 1e9 * stepping_seconds_ / static_cast<double>(simulation.awake_block_steps() - first_block_steps_));
     record_.set_figure("awake_block_steps", static_cast<double>(simulation.awake_block_steps()));
     record_.set_figure("blocks_asleep", static_cast<double>(simulation.asleep_count()));
     record_.set_figure("energy.kinetic", energy.kinetic);
@@ -58,6 +65,10 @@ void Report::window_done(const Simulation& simulation, const PackedPoses& packed
     record_.set_figure("damage.mean_displacement", damage.mean_displacement);
     record_.set_figure("damage.mean_offshore", damage.mean_offshore);
     record_.set_figure("damage.largest_displacement", damage.largest_displacement);
+    // The clock of the whole chain, and that of the paper, which starts when waves reach the blocks.
+    record_.set_figure("clock.end", simulation.time());
+    if (simulation.water() != nullptr && simulation.water()->waves_reach_blocks >= 0)
+        record_.set_figure("clock.waves_reach_blocks", simulation.water()->waves_reach_blocks);
     const Wires& wires = simulation.wires;
     record_.set_figure("wires.count", static_cast<double>(wires.size()));
     record_.set_figure("wires.broken", static_cast<double>(wires.size() - wires.intact_count()));
@@ -76,6 +87,7 @@ void Report::restore(const common::DataFile& state) {
     first_balance_ = state.number("first_balance");
     first_size_ = state.number("first_size");
     smallest_limit_ = state.number("smallest_limit");
+    first_block_steps_ = static_cast<std::uint64_t>(state.integer("awake_block_steps"));
 }
 
 void Report::end(const std::string& status, const std::string& message) { record_.write_ended(status, message); }

@@ -20,7 +20,8 @@ class Report {
     /// Figures and invariants at the end of a window.
     void window_done(const Simulation& simulation, const PackedPoses& packed, std::int64_t windows);
     void end(const std::string& status, const std::string& message = {});
-    void add_time(const std::string& phase, double seconds) { record_.add_phase_time(phase, seconds); }
+    /// Wall time of a phase: "packing", "flow", "steps", "output".
+    void add_time(const std::string& phase, double seconds);
     /// What later reports depend on, kept in state.h5.
     void store(common::DataFile& state) const;
     void restore(const common::DataFile& state);
@@ -28,7 +29,8 @@ class Report {
  private:
     common::RunRecord record_;
     const Scene& scene_;
-    double first_balance_ = 0, first_size_ = 0, smallest_limit_;
+    double first_balance_ = 0, first_size_ = 0, smallest_limit_, stepping_seconds_ = 0;
+    std::uint64_t first_block_steps_ = 0;  ///< of the run this one goes on from
 };
 
 /// Error of the energy balance over the energy that changed hands since the start.

@@ -135,12 +135,19 @@ common::Window advance(Simulation& simulation, const PackedPoses& packed, const 
     WindowOutput output;
     const auto samples = common::WindowClock(begin, end, end - begin).samples_in(0, scene.output_interval);
     output.record(simulation, packed);
+    double stepping = 0, recording = 0;
     for (std::size_t k = 1; k < samples.size(); ++k) {
-        simulation.advance(samples[k]);
+        {
+            common::PhaseTimer timer(stepping);
+            simulation.advance(samples[k]);
+        }
+        common::PhaseTimer timer(recording);
         output.record(simulation, packed);
         report.look(simulation);
         progress.update(simulation.time(), fmt::format("{} of {} blocks asleep", simulation.asleep_count(), simulation.blocks.size()));
     }
+    report.add_time("steps", stepping);
+    report.add_time("output", recording);
     return output.take(index);
 }
 
@@ -205,7 +212,12 @@ void run(const common::StageCommand& command, const common::SceneFile& file, con
             restore(*start.simulation, snapshot);
             report.restore(folder.state());
         } else {
-            start = earlier ? std::move(*earlier) : packed_start(scene, progress);
+            double packing = 0;
+            {
+                common::PhaseTimer timer(packing);
+                start = earlier ? std::move(*earlier) : packed_start(scene, progress);
+            }
+            report.add_time("packing", packing);
             if (!earlier) mount_layout(*start.simulation, scene, start.packed, nullptr);
             flow.require_cover(start.simulation->blocks);
             if (span && span->grid && start.simulation->water() != nullptr) start.simulation->water()->motion = *span->grid;

@@ -175,6 +175,7 @@ DataFile to_data_file(const Snapshot& snapshot) {
                        {"water_work", memory.water_work},
                        {"gross_water_work", memory.gross_water_work},
                        {"largest_overlap", memory.largest_overlap},
+                       {"waves_reach_blocks", memory.waves_reach_blocks},
                        {"steps", static_cast<std::int64_t>(memory.steps)},
                        {"awake_block_steps", static_cast<std::int64_t>(memory.awake_block_steps)},
                        {"deep_contact_steps", static_cast<std::int64_t>(memory.deep_contact_steps)}};
@@ -230,6 +231,7 @@ Snapshot snapshot_from(const DataFile& file) {
     memory.water_work = file.number("water_work");
     memory.gross_water_work = file.number("gross_water_work");
     memory.largest_overlap = file.number("largest_overlap");
+    memory.waves_reach_blocks = file.number("waves_reach_blocks");
     memory.steps = static_cast<std::uint64_t>(file.integer("steps"));
     memory.awake_block_steps = static_cast<std::uint64_t>(file.integer("awake_block_steps"));
     memory.deep_contact_steps = static_cast<std::uint64_t>(file.integer("deep_contact_steps"));

@@ -235,6 +235,7 @@ Simulation::Memory Simulation::memory() const {
                   .water_work = water_ != nullptr ? water_->work : 0,
                   .gross_water_work = water_ != nullptr ? water_->gross_work : 0,
                   .largest_overlap = largest_overlap_,
+                  .waves_reach_blocks = water_ != nullptr ? water_->waves_reach_blocks : -1,
                   .steps = steps_,
                   .awake_block_steps = awake_block_steps_,
                   .deep_contact_steps = deep_contact_steps_};
@@ -256,6 +257,7 @@ void Simulation::restore(const Memory& memory) {
     if (water_ != nullptr) {
         water_->work = memory.water_work;
         water_->gross_work = memory.gross_water_work;
+        water_->waves_reach_blocks = memory.waves_reach_blocks;
     }
     if (sleeping_ && memory.sleeping) sleeping_->restore(*memory.sleeping);
     find_awake();

@@ -59,6 +59,7 @@ class Simulation {
     double largest_overlap() const { return largest_overlap_; }
     std::uint64_t deep_contact_steps() const { return deep_contact_steps_; }
     FluidLoads* water() { return water_; }
+    const FluidLoads* water() const { return water_; }
     const StepRules& rules() const { return rules_; }
     /// Largest stable step at the present contacts and wires, s; see time_step.cpp.
     double stable_time_step() const;
@@ -70,7 +71,7 @@ class Simulation {
     struct Memory {
         std::vector<Pair> pairs;  ///< those that touch
         std::optional<Sleeping::Memory> sleeping;
-        double time, dissipated, water_work, gross_water_work, largest_overlap;
+        double time, dissipated, water_work, gross_water_work, largest_overlap, waves_reach_blocks;
         std::uint64_t steps, awake_block_steps, deep_contact_steps;
     };
     Memory memory() const;

@@ -18,7 +18,7 @@ FluidLoad sample_fluid_load(const Blocks& blocks, std::size_t block, const Motio
     const double viscous = 24 * water.viscosity / d;
     const Vector buoyancy = -water.density * volume * properties.gravity;
 
-    FluidLoad load{Vector::Zero(), Vector::Zero(), Rotation::Zero(), blocks.velocity[block], 0};
+    FluidLoad load{Vector::Zero(), Vector::Zero(), Rotation::Zero(), blocks.velocity[block], 0, 0};
     double isotropic = 0;
     for (const auto& sphere : shape.spheres) {
         const Vector arm = blocks.rotation[block] * sphere;
@@ -32,10 +32,12 @@ FluidLoad sample_fluid_load(const Blocks& blocks, std::size_t block, const Motio
         load.force += force;
         load.torque += arm.cross(force);
         load.wet += sample.wet;
+        load.water_speed += sample.wet * sample.velocity.norm();
         isotropic += slope;
         if (speed > 0) load.drag_slope += (drag * sample.wet * 0.4 / speed * relative) * relative.transpose();
     }
     load.drag_slope.diagonal().array() += isotropic;
+    if (load.wet > 0) load.water_speed /= load.wet;
     load.wet /= static_cast<double>(shape.spheres.size());
     return load;
 }

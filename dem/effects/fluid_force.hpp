@@ -21,6 +21,7 @@ struct FluidLoad {
     Rotation drag_slope;///< -dF/d(velocity), kg/s
     Vector velocity;    ///< of the block when sampled, m/s
     double wet;         ///< mean over the block's spheres
+    double water_speed; ///< mean over the block's wet spheres, m/s
 
     Vector force_at(const Vector& present_velocity) const {
         return force - drag_slope * (present_velocity - velocity);
