@@ -103,16 +103,19 @@ std::string suggestion(std::string_view word, const Names& names) {
     return best.empty() ? std::string() : fmt::format("; did you mean '{}'?", best);
 }
 
-std::string describe(const Range& range) {
+/// "a number from 1 to 5", "a whole number above 0"; `kind` is what stands before the range.
+std::string describe(const Range& range, const std::string& kind = "a number") {
     const bool has_lowest = std::isfinite(range.lowest), has_highest = std::isfinite(range.highest);
+    if (has_lowest && has_highest && !range.lowest_is_open && !range.highest_is_open)
+        return fmt::format("{} from {} to {}", kind, range.lowest, range.highest);
     if (has_lowest && has_highest)
-        return fmt::format("a number {} {} and {} {}", range.lowest_is_open ? "above" : "from", range.lowest,
-                           range.highest_is_open ? "below" : "up to", range.highest);
+        return fmt::format("{} {} {} and {} {}", kind, range.lowest_is_open ? "above" : "from", range.lowest,
+                           range.highest_is_open ? "below" : "at most", range.highest);
     if (has_lowest)
-        return fmt::format("a number {} {}", range.lowest_is_open ? "above" : "of at least", range.lowest);
+        return fmt::format("{} {} {}", kind, range.lowest_is_open ? "above" : "of at least", range.lowest);
     if (has_highest)
-        return fmt::format("a number {} {}", range.highest_is_open ? "below" : "of at most", range.highest);
-    return "a number";
+        return fmt::format("{} {} {}", kind, range.highest_is_open ? "below" : "of at most", range.highest);
+    return kind;
 }
 
 bool contains(const Range& range, double value) {
@@ -262,7 +265,7 @@ std::int64_t Section::integer(std::string_view key, std::string_view about, Rang
     if (const auto* node = reading.node()) {
         const auto* whole = node->as_integer();
         if (whole == nullptr || !contains(range, static_cast<double>(whole->get())))
-            reading.expected("a whole number, " + describe(range).substr(2), *node);
+            reading.expected(describe(range, "a whole number"), *node);
         else
             value = whole->get();
     } else if (!fallback) {

@@ -109,7 +109,7 @@ TEST(SceneFile, TenMistakesGiveTenLinesInFileOrder) {
         "ten.toml:8:8: waves.kind: expected one of regular, solitary, got text \"reglar\"; did you mean "
         "'regular'?",
         "ten.toml:9:1: waves.perod: unknown key; did you mean 'period'?",
-        "ten.toml:11:9: boussinesq.cells: expected a whole number, number above 0, got 1.5",
+        "ten.toml:11:9: boussinesq.cells: expected a whole number above 0, got 1.5",
         "ten.toml:12:14: boussinesq.dispersion: expected true or false, got 1",
         "ten.toml:13:2: wafes: unknown section; did you mean 'waves'?"};
     std::string joined;
@@ -124,6 +124,25 @@ TEST(SceneFile, AKeyAtFaultGetsOneLine) {
         waves.problem("height", "higher than the water is deep");
     EXPECT_EQ(line_count(message_of(scene)), 1u) << message_of(scene);
     EXPECT_NE(message_of(scene).find("expected a number above 0 in m, got text \"tall\""), std::string::npos);
+}
+
+TEST(SceneFile, RangesAreToldInWords) {
+    const auto told = [](const Range& range) {
+        const auto scene = SceneFile::parse("[dem]\nfriction = 'much'\n", "a.toml");
+        scene.section("dem").number("friction", "-", "friction", range);
+        const std::string message = message_of(scene);
+        const auto begin = message.find("expected "), end = message.find(", got");
+        return message.substr(begin, end - begin);
+    };
+    EXPECT_EQ(told(Range::any()), "expected a number");
+    EXPECT_EQ(told(Range::positive()), "expected a number above 0");
+    EXPECT_EQ(told(Range::at_least(2)), "expected a number of at least 2");
+    EXPECT_EQ(told(Range::between(0, 1)), "expected a number from 0 to 1");
+    EXPECT_EQ(told({.lowest = 0, .highest = 0.5, .highest_is_open = true}),
+              "expected a number from 0 and below 0.5");
+    EXPECT_EQ(told({.lowest = 0, .highest = 1, .lowest_is_open = true}),
+              "expected a number above 0 and at most 1");
+    EXPECT_EQ(told({.highest = 3}), "expected a number of at most 3");
 }
 
 TEST(SceneFile, SyntaxErrorNamesItsPlace) {
