@@ -32,6 +32,7 @@ struct SceneData {
     std::vector<std::pair<std::pair<std::uint32_t, std::uint32_t>, std::string>>
         problems;                                     // (line, column), text
     std::set<std::string> faulty;                     // dotted keys that have a problem
+    std::set<std::string> has_stand_ins;              // tables with a value of the wrong type or range
     std::map<std::string, std::string> file_digests;  // key -> digest of the file it names
 
     std::string where(const std::string& dotted, const toml::node* node) const {
@@ -176,6 +177,7 @@ class Reading {
     }
     const toml::node* node() const { return node_; }
     void mistake(const std::string& message, const toml::node* at = nullptr) {
+        scene_.has_stand_ins.insert(section_);
         scene_.note(dotted_name(section_, key_),
                     at != nullptr      ? at
                     : node_ != nullptr ? node_
@@ -496,8 +498,8 @@ bool Section::is_text(std::string_view key) const {
 }
 
 void Section::problem(std::string_view key, const std::string& message) const {
-    // A value that was of the wrong type or range was replaced by a stand-in: what follows from that is no
-    // mistake.
+    // A value of the wrong type or range was replaced by a stand-in: what follows from that is no mistake.
+    if (scene_->has_stand_ins.contains(name_)) return;
     if (!key.empty() && scene_->faulty.contains(dotted_name(name_, key))) return;
     const auto* table = static_cast<const toml::table*>(node_);
     const toml::node* node = table != nullptr && !key.empty() ? table->get(key) : nullptr;

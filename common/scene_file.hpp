@@ -93,7 +93,7 @@ class Section {
 
     /// Notes a mistake about `key` that only the stage can see ("gauge outside the flume"); finish() reports
     /// it with file, line and key. An empty key means the table itself. A key that already has a mistake gets
-    /// no second one.
+    /// no second one, and a table with a value of the wrong type or range is not judged further.
     void problem(std::string_view key, const std::string& message) const;
 
     /// Dotted name of this table ("dem.blocks").

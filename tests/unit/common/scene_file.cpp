@@ -126,6 +126,15 @@ TEST(SceneFile, AKeyAtFaultGetsOneLine) {
     EXPECT_NE(message_of(scene).find("expected a number above 0 in m, got text \"tall\""), std::string::npos);
 }
 
+TEST(SceneFile, WhatFollowsFromAStandInIsNoMistake) {
+    const auto scene = SceneFile::parse("[cmps]\noffshore = 1\nspacing = 'fine'\n", "a.toml");
+    const auto cmps = scene.section("cmps");
+    const double spacing = cmps.number("spacing", "m", "particle spacing", Range::positive());
+    if (cmps.number("offshore", "m", "wall", Range::any()) < 4 * spacing)
+        cmps.problem("offshore", "less than four particles from the structure");
+    EXPECT_EQ(line_count(message_of(scene)), 1u) << message_of(scene);
+}
+
 TEST(SceneFile, RangesAreToldInWords) {
     const auto told = [](const Range& range) {
         const auto scene = SceneFile::parse("[dem]\nfriction = 'much'\n", "a.toml");
