@@ -47,12 +47,13 @@ void Simulation::add_sleeping(const SleepRules& rules) {
 
 void Simulation::start(double t) {
     time_ = t;
+    if (sleeping_) sleeping_->wake_all(blocks, t);
+    find_awake();
     for (const auto& load : loads_) load->sample(blocks, t, 0);
     // Contacts as they are: a step of no length leaves their histories alone.
     contact_model_->evaluate(blocks, surroundings_, pair_list_, active_, 0);
     sum_all_forces();
-    if (sleeping_) sleeping_->wake_all(blocks, t);
-    find_awake();
+    if (sleeping_) sleeping_->wake_all(blocks, t);  // once more: now the loads they rest under are known
 }
 
 void Simulation::blocks_were_placed(double t) {

@@ -1,0 +1,204 @@
+"""The paper's results for the blocks: case 1 and case 2 over several mound seeds, from one stored flow.
+
+    make -C workflows paper                      (SMOKE=1: two seeds, a short stretch of flow)
+
+The flow is OUT/flow of `make chain` or `make flow`; without it the chain is run first. Clock: t = 0 when waves reach the blocks.
+Case 1 runs to 11.67 s after that; case 2 starts there with row 2 put back and its layout mounted, and meets the same waves again.
+Writes paper_displacement.csv (a row a case and seed), paper_psi.csv (damage against psi), paper_tension.csv (f_max and f_min at
+the paper's instants), paper_summary.json (what came out and what did not) and pictures of each.
+"""
+import argparse
+import csv
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+import numpy
+
+here = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(here.parent))
+sys.path.insert(0, str(here.parent / "plots"))
+import run_folder  # noqa: E402
+import style  # noqa: E402
+from style import plt  # noqa: E402
+
+END, INSTANT = 11.67, 9.99  # s after waves reach the blocks: last picture and tension map of the paper
+
+arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+arguments.add_argument("--bin", type=pathlib.Path, required=True)
+arguments.add_argument("--out", type=pathlib.Path, required=True)
+arguments.add_argument("--scene", type=pathlib.Path, default=here.parent / "scenes" / "gotoh2009.toml")
+arguments.add_argument("--flow", type=pathlib.Path, help="stored flow; default: beside OUT")
+arguments.add_argument("--seeds", type=int, default=5)
+arguments.add_argument("--set", action="append", default=[], help="KEY=VALUE for every run")
+arguments.add_argument("--smoke", action="store_true")
+options = arguments.parse_args()
+options.out.mkdir(parents=True, exist_ok=True)
+runs = options.out / "paper_blocks"
+seeds = range(1, (2 if options.smoke else options.seeds) + 1)
+psis = [0.05, 0.3] if options.smoke else [0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5]
+layouts = {name: here.parent / "layouts" / f"{name}.toml" for name in ("case1", "case2")}
+
+
+def find_flow():
+    flow = options.flow or options.out.parent / "flow"
+    if not (flow / "run.json").exists() or run_folder.read_run(flow)["status"] != "done":
+        subprocess.run([options.bin / "coupler", "run", options.scene, "--out", flow.parent], check=True)
+    return flow
+
+
+def dem(verb, folder, *more, seed):
+    """Runs the program; a finished run is left alone. Wall time is in its run.json."""
+    command = [options.bin / "dem", verb, options.scene, "--out", folder, "--quiet", "--set", f"dem.mound.seed={seed}", *more]
+    for setting in options.set:
+        command += ["--set", setting]
+    subprocess.run([str(word) for word in command], check=True, env={**os.environ, "OMP_WAIT_POLICY": "passive"})
+    return folder
+
+
+def displacement(folder):
+    """Displacement of every free block from the first sample of this run: total, offshore (m), and the time axis."""
+    time, position = run_folder.read_series(folder, "/blocks/position")
+    free = run_folder.read_geometry(folder)["/blocks/fixed"] == 0
+    way = position[-1] - position[0]
+    return numpy.linalg.norm(way, axis=1)[free], -way[free, 0]
+
+
+def groups(folder):
+    """Which free blocks carry a wire, and which stand at the sea side (rows 4 and 5) without one."""
+    geometry = run_folder.read_geometry(folder)
+    free = numpy.flatnonzero(geometry["/blocks/fixed"] == 0)
+    wired = numpy.isin(free, geometry["/wires/ends"][:, [0, 2]])
+    return wired, ~wired & (free >= 60)
+
+
+def tension_at(folder, instant):
+    time, tension = run_folder.read_series(folder, "/wires/tension")
+    return tension[numpy.abs(time - instant).argmin()]
+
+
+def mean_and_spread(values):
+    """Mean and half width of its 95 % confidence interval (Student's t)."""
+    values = numpy.asarray(values, float)
+    t = {2: 12.71, 3: 4.30, 4: 3.18, 5: 2.78}.get(len(values), 1.96)
+    return float(values.mean()), float(t * values.std(ddof=1) / numpy.sqrt(len(values))) if len(values) > 1 else float("nan")
+
+
+def write_csv(name, rows):
+    with open(options.out / name, "w", newline="") as file:
+        table = csv.DictWriter(file, fieldnames=list(rows[0]))
+        table.writeheader()
+        table.writerows(rows)
+
+
+flow = find_flow()
+probe = dem("run", runs / "probe", "--flow", flow, seed=1)
+arrival = run_folder.read_run(probe)["figures"]["clock"]["waves_reach_blocks"]
+flow_end = run_folder.read_run(probe)["figures"]["clock"]["end"]
+end = min(arrival + (4 if options.smoke else END), flow_end)
+rows, tensions = [], []
+for seed in seeds:
+    pack = dem("pack", runs / f"pack_{seed}", seed=seed)
+    case1 = dem("run", runs / f"case1_{seed}", "--flow", flow, "--wires", layouts["case1"], "--from", pack / "state.h5",
+                "--set", f"time.end={end}", seed=seed)
+    case2 = dem("run", runs / f"case2_{seed}", "--flow", flow, "--wires", layouts["case2"], "--from", case1 / "state.h5",
+                "--set", f"time.end={end}", "--set", f"dem.restart.clock={arrival}", seed=seed)
+    # The same layout as case 1, from the same start as case 2: what the added wires are worth.
+    control = dem("run", runs / f"control_{seed}", "--flow", flow, "--wires", layouts["case1"], "--from", case1 / "state.h5",
+                  "--set", f"time.end={end}", "--set", f"dem.restart.clock={arrival}", seed=seed)
+    unwired = dem("run", runs / f"unwired_{seed}", "--flow", flow, "--from", pack / "state.h5", "--set", f"time.end={end}", seed=seed)
+    wired, bare = groups(case1)
+    for name, folder in (("case1", case1), ("case2", case2), ("control", control), ("unwired", unwired)):
+        total, offshore = displacement(folder)
+        figures = run_folder.read_run(folder)["figures"]
+        rows.append({"case": name, "seed": seed, "wired_mean_m": total[wired].mean(), "wired_offshore_m": offshore[wired].mean(),
+                     "unwired_sea_side_mean_m": total[bare].mean(), "unwired_sea_side_offshore_m": offshore[bare].mean(),
+                     "all_mean_m": total.mean(), "all_offshore_m": offshore.mean(), "largest_m": total.max(),
+                     "largest_offshore_m": offshore.max(),
+                     "broken_wires": figures["wires"]["broken"], "largest_tension_N": figures["wires"]["largest_tension"],
+                     "wall_s": run_folder.read_run(folder)["wall_time"]})
+    for name, folder in (("case1", case1), ("case2", case2)):
+        links = run_folder.read_geometry(folder)["/wires/ends"]
+        cross_78 = (links[:, 0] == 77) & (links[:, 2] == 97)
+        for label, instant in (("9.99", arrival + INSTANT), ("11.67", end)):
+            tension = tension_at(folder, min(instant, end))
+            pulled = tension[tension > 0]
+            tensions.append({"case": name, "seed": seed, "t_after_arrival_s": label, "f_max_N": tension.max(initial=0),
+                             "f_min_N": pulled.min() if len(pulled) else 0.0, "wires_in_tension": len(pulled),
+                             "wires": len(tension), "cross_78_N": tension[cross_78].sum()})
+write_csv("paper_displacement.csv", rows)
+write_csv("paper_tension.csv", tensions)
+
+psi_rows = []
+for psi in psis:
+    for seed in seeds:
+        folder = dem("run", runs / f"psi_{psi}_{seed}", "--flow", flow, "--wires", layouts["case1"], "--from", runs / f"pack_{seed}" / "state.h5",
+                     "--set", f"time.end={end}", "--set", f"wires.psi={psi}", seed=seed)
+        wired, bare = groups(folder)
+        total, offshore = displacement(folder)
+        figures = run_folder.read_run(folder)["figures"]
+        psi_rows.append({"psi": psi, "seed": seed, "broken_wires": figures["wires"]["broken"], "wires": figures["wires"]["count"],
+                         "damage_number": figures["damage"]["number"], "beyond_quarter_length": figures["damage"]["beyond_quarter_length"],
+                         "wired_mean_m": total[wired].mean(), "wired_offshore_m": offshore[wired].mean()})
+write_csv("paper_psi.csv", psi_rows)
+
+
+def column(case, key):
+    return [row[key] for row in rows if row["case"] == case]
+
+
+summary = {"waves_reach_blocks_s": arrival, "end_s": end, "seeds": len(seeds), "mean and half width of 95 % interval": {}}
+for case in ("case1", "case2", "control", "unwired"):
+    summary["mean and half width of 95 % interval"][case] = {key: mean_and_spread(column(case, key)) for key in
+                                   ("wired_mean_m", "wired_offshore_m", "unwired_sea_side_mean_m", "unwired_sea_side_offshore_m", "all_mean_m", "all_offshore_m", "largest_m")}
+more = numpy.array(column("case1", "unwired_sea_side_offshore_m")) - numpy.array(column("case1", "wired_offshore_m"))
+less = numpy.array(column("control", "all_mean_m")) - numpy.array(column("case2", "all_mean_m"))
+summary["2 unwired farther offshore than wired in case 1"] = {"difference_m": mean_and_spread(more), "seeds_in_which_so": int((more > 0).sum())}
+summary["3 case 2 moves less than case 1 over the same waves"] = {"difference_m": mean_and_spread(less), "seeds_in_which_so": int((less > 0).sum())}
+for case in ("case1", "case2"):
+    pulls = [row["cross_78_N"] for row in tensions if row["case"] == case and row["t_after_arrival_s"] == "11.67"]
+    summary[f"4 cross-shore wire at block 78 in tension at the end of {case}"] = {"seeds_in_which_so": sum(pull > 0 for pull in pulls), "newtons": pulls}
+(options.out / "paper_summary.json").write_text(json.dumps(summary, indent=1, default=float))
+
+figure, axes = plt.subplots(1, 3, figsize=(13, 3.6))
+for place, (key, label) in enumerate((("wired_offshore_m", "wired"), ("unwired_sea_side_offshore_m", "unwired, rows 4-5"), ("all_offshore_m", "all"))):
+    for shift, case in enumerate(("unwired", "case1", "control", "case2")):
+        mean, half = mean_and_spread(column(case, key))
+        axes[0].errorbar(place + 0.18 * shift - 0.27, 1e3 * mean, 1e3 * half, fmt="o", capsize=3, color=f"C{shift}", label=case if place == 0 else None)
+axes[0].set_xticks(range(3), ["wired in case 1", "not wired, rows 4-5", "all"])
+axes[0].set_ylabel("offshore displacement (mm)")
+axes[0].legend()
+axes[0].set_title(f"mean over {len(seeds)} seeds, 95 % interval")
+for key, marker in (("broken_wires", "o"),):
+    share = [mean_and_spread([row[key] / max(row["wires"], 1) for row in psi_rows if row["psi"] == psi]) for psi in psis]
+    axes[1].errorbar(psis, [s[0] for s in share], [s[1] for s in share], fmt=marker + "-", capsize=3)
+axes[1].set_xlabel("psi"), axes[1].set_ylabel("share of broken wires"), axes[1].set_title("case 1")
+moved = [mean_and_spread([1e3 * row["wired_mean_m"] for row in psi_rows if row["psi"] == psi]) for psi in psis]
+axes[2].errorbar(psis, [m[0] for m in moved], [m[1] for m in moved], fmt="o-", capsize=3)
+axes[2].set_xlabel("psi"), axes[2].set_ylabel("displacement of wired blocks (mm)"), axes[2].set_title("case 1")
+figure.savefig(options.out / "paper_displacement.png")
+
+for case in ("case1", "case2"):
+    folder = runs / f"{case}_1"
+    time, position, tension = run_folder.read_series(folder, "/blocks/position", "/wires/tension")
+    geometry = run_folder.read_geometry(folder)
+    ends = geometry["/wires/ends"]
+    links, link_of_wire = numpy.unique(ends[:, [0, 2]], axis=0, return_inverse=True)
+    figure, axes = plt.subplots(2, 1, figsize=(11, 6.4), sharex=True)
+    for axis, instant in zip(axes, (min(arrival + INSTANT, end), end)):
+        sample = numpy.abs(time - instant).argmin()
+        total = numpy.bincount(link_of_wire, tension[sample], len(links))
+        pulled = tension[sample][tension[sample] > 0]
+        axis.scatter(position[sample, :, 1], position[sample, :, 0], s=60, marker="s", color=style.CONCRETE)
+        top = max(total.max(initial=0), 1e-12)
+        for (a, b), value in zip(links, total):
+            axis.plot(position[sample, [a, b], 1], position[sample, [a, b], 0], lw=0.5 + 5 * value / top, color=plt.cm.inferno_r(0.15 + 0.8 * value / top))
+        axis.set_title(f"{case}, t = {time[sample] - arrival:.2f} s after waves reach the blocks: f_max {pulled.max(initial=0):.3g} N, "
+                       f"f_min {pulled.min() if len(pulled) else 0:.3g} N a wire")
+        axis.set_ylabel("x (m)")
+        axis.set_aspect("equal")
+    axes[1].set_xlabel("y along the breakwater (m)")
+    figure.savefig(options.out / f"paper_tension_{case}.png")
+print(json.dumps(summary, indent=1, default=float))
