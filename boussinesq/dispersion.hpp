@@ -15,8 +15,7 @@
 /// hydrostatic.
 #pragma once
 
-#include <vector>
-
+#include "boussinesq/cell_array.hpp"
 #include "boussinesq/tile.hpp"
 #include "boussinesq/wave_state.hpp"
 
@@ -34,7 +33,7 @@ void assemble_shoreline_dispersion(Tile& tile, const FlowParameters& flow, const
 /// the middle). Elimination runs from both ends towards the middle at once: two independent chains hide each
 /// row's division.
 struct DispersionSystem {
-    std::vector<double> ratio, value;  ///< padded
+    CellArray ratio, value;  ///< padded
 
     explicit DispersionSystem(const Grid& grid) : ratio(grid.padded(), 0.0), value(grid.padded(), 0.0) {}
 };

@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "boussinesq/cell_array.hpp"
+
 namespace boussinesq {
 
 inline constexpr std::size_t ghost_cells = 4;
@@ -31,7 +33,7 @@ struct Grid {
 
 /// The bed: continuous, given at faces, linear inside a cell; mirrored beyond both ends.
 struct Bed {
-    std::vector<double> face_level;  ///< m, padded faces
+    CellArray face_level;  ///< m, padded faces
 
     /// `polyline`: [[x, z], ...] with x increasing (m).
     Bed(const Grid& grid, const std::vector<std::array<double, 2>>& polyline);

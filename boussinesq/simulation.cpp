@@ -156,8 +156,9 @@ double Simulation::energy() const {
 common::DataFile Simulation::save() const {
     common::DataFile file;
     const std::size_t n = grid_.padded();
-    file.datasets["/depth"] = common::real64("m", {n}, state_.depth);
-    file.datasets["/discharge"] = common::real64("m2/s", {n}, state_.discharge);
+    file.datasets["/depth"] = common::real64("m", {n}, {state_.depth.begin(), state_.depth.end()});
+    file.datasets["/discharge"] =
+        common::real64("m2/s", {n}, {state_.discharge.begin(), state_.discharge.end()});
     file.attributes["time"] = time_;
     file.attributes["begun"] = begun_;
     file.attributes["steps"] = steps_;
@@ -173,8 +174,10 @@ common::DataFile Simulation::save() const {
 }
 
 void Simulation::restore(const common::DataFile& saved) {
-    state_.depth = saved.at("/depth").doubles();
-    state_.discharge = saved.at("/discharge").doubles();
+    const auto& depth = saved.at("/depth").doubles();
+    const auto& discharge = saved.at("/discharge").doubles();
+    state_.depth.assign(depth.begin(), depth.end());
+    state_.discharge.assign(discharge.begin(), discharge.end());
     time_ = saved.number("time");
     begun_ = time_;
     steps_ = saved.integer("steps");

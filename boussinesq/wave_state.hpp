@@ -1,16 +1,15 @@
 /// What is carried from step to step.
 #pragma once
 
-#include <vector>
-
+#include "boussinesq/cell_array.hpp"
 #include "boussinesq/grid.hpp"
 
 namespace boussinesq {
 
 /// Conserved quantities of every cell, padded.
 struct WaveState {
-    std::vector<double> depth;      ///< total water depth h, m
-    std::vector<double> discharge;  ///< h u, m2/s
+    CellArray depth;      ///< total water depth h, m
+    CellArray discharge;  ///< h u, m2/s
 
     explicit WaveState(const Grid& grid) : depth(grid.padded(), 0.0), discharge(grid.padded(), 0.0) {}
 };

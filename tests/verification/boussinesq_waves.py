@@ -142,4 +142,36 @@ def windows_do_not_touch_the_waves(folder):
     check_below("difference between windows of 0.05, 0.77 and 5 s", worst, 1e-15, "m", "the steps do not know of windows")
 
 
+@test
+def a_killed_run_goes_on_to_the_same_bytes_and_figures(folder):
+    # A beach, so that breaking, shoreline, run-up and envelope are all under way when the run is killed.
+    text = """
+[time]
+end = 24.0
+window = 0.2
+[flume]
+bed = [[0.0, -0.4], [10.0, -0.4], [22.0, 0.2]]
+[waves]
+kind = "regular"
+height = 0.1
+period = 1.8
+[gauges]
+toe = 9.0
+surf = {x = 16.0, interval = 0.01}
+"""
+    scene = write_scene(folder, text)
+    run("boussinesq", "run", scene, "--out", folder / "whole", "--quiet").expect_done()
+    for windows in (5, 30, 60, 110):
+        process = start("boussinesq", "run", scene, "--out", folder / "parts", "--quiet", "--resume")
+        wait_for(lambda: len(run_folder.window_paths(folder / "parts")) >= windows, 120, f"{windows} windows")
+        process.kill()
+        process.wait()
+    run("boussinesq", "run", scene, "--out", folder / "parts", "--quiet", "--resume").expect_done()
+    check_same_bytes(folder / "whole", folder / "parts")
+    check((folder / "whole/envelope.h5").read_bytes() == (folder / "parts/envelope.h5").read_bytes(), "the envelopes differ")
+    whole, parts = (run_folder.read_run(folder / name)["figures"] for name in ("whole", "parts"))
+    for key in ("gauges", "run_up", "run_down", "breaking", "water", "energy", "steps"):
+        check(whole[key] == parts[key], f"{key} differ: {whole[key]} and {parts[key]}")
+
+
 main()
