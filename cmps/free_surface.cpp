@@ -20,7 +20,7 @@ void find_free_surface(const Particles& particles, const NeighbourLists& lists, 
             return;
         }
         double water = 0;
-        for (std::uint32_t k = lists.start[r + 1]; k-- > lists.start[r];) {
+        for (std::size_t k = lists.start[r + 1]; k-- > lists.start[r];) {
             if (!particles.is_fluid(static_cast<std::size_t>(lists.neighbour[k]))) break;
             water += interactions.weight[k];
         }
@@ -28,7 +28,7 @@ void find_free_surface(const Particles& particles, const NeighbourLists& lists, 
     });
     common::parallel_for(rows, 4000, [&](std::size_t r) {
         if (place[r] != Place::inside) return;
-        for (std::uint32_t k = lists.carriers[r]; k < lists.start[r + 1]; ++k) {
+        for (std::size_t k = lists.carriers[r]; k < lists.start[r + 1]; ++k) {
             const std::size_t other = static_cast<std::size_t>(lists.neighbour[k]) - first;
             if (interactions.weight[k] > 0 && place[other] >= Place::surface && other >= walls) {
                 place[r] = Place::near_surface;

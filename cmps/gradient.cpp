@@ -13,15 +13,15 @@ void sweep(const Particles& particles, const NeighbourLists& lists, const Intera
            const Difference& difference, const Finish& finish) {
     const std::size_t first = particles.first_wall(), walls = particles.walls;
     const std::int32_t* const neighbour = lists.neighbour.data();
-    const double* const dx = interactions.dx.data();
-    const double* const dz = interactions.dz.data();
-    const double* const g = interactions.weight_over_r2.data();
+    const float* const dx = interactions.dx.data();
+    const float* const dz = interactions.dz.data();
+    const float* const g = interactions.weight_over_r2.data();
     common::parallel_for(particles.fluid, 2000, [&](std::size_t f) {
         const std::size_t row = walls + f, i = first + row;
-        const std::uint32_t begin = lists.carriers[row], end = lists.start[row + 1];
+        const std::size_t begin = lists.carriers[row], end = lists.start[row + 1];
         double x = 0, z = 0;
 #pragma omp simd reduction(+ : x, z)
-        for (std::uint32_t k = begin; k < end; ++k) {
+        for (std::size_t k = begin; k < end; ++k) {
             const double share = difference(i, static_cast<std::size_t>(neighbour[k])) * g[k];
             x += share * dx[k], z += share * dz[k];
         }
@@ -45,7 +45,7 @@ void GradientTerm::find_local_minima(const Particles& particles, const Neighbour
     const std::size_t first = particles.first_wall();
     common::parallel_for(particles.size() - first, 2000, [&](std::size_t row) {
         double lowest = particles.pressure[first + row];
-        for (std::uint32_t k = lists.carriers[row]; k < lists.start[row + 1]; ++k)
+        for (std::size_t k = lists.carriers[row]; k < lists.start[row + 1]; ++k)
             if (interactions.weight[k] > 0) lowest = std::min(lowest, particles.pressure[lists.neighbour[k]]);
         minimum_[first + row] = lowest;
     });

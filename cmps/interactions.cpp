@@ -26,47 +26,53 @@ void compute_interactions(const Kernel& kernel, const Particles& particles, cons
     const double* const x = particles.x.data();
     const double* const z = particles.z.data();
     const std::int32_t* const neighbour = lists.neighbour.data();
-    double* const all_dx = out.dx.data();
-    double* const all_dz = out.dz.data();
-    double* const all_w = out.weight.data();
-    double* const all_g = out.weight_over_r2.data();
+    float* const all_dx = out.dx.data();
+    float* const all_dz = out.dz.data();
+    float* const all_w = out.weight.data();
+    float* const all_g = out.weight_over_r2.data();
 
     // Block by block, so that a block's pairs stay in cache from the first loop to the last.
     constexpr std::size_t block = 64;  // rows; about 1700 pairs, 80 kB
     common::parallel_for((rows + block - 1) / block, serial_below / block, [&](std::size_t b) {
         const std::size_t row0 = b * block, row1 = std::min(rows, row0 + block);
-        const std::uint32_t from = lists.start[row0], to = lists.start[row1];
+        const std::size_t from = lists.start[row0], to = lists.start[row1];
+        thread_local std::vector<double> scratch;
+        scratch.resize(5 * (to - from));
+        double* const dx = scratch.data() - from;
+        double* const dz = dx + (to - from);
+        double* const w = dz + (to - from);
+        double* const over_r = w + (to - from);  // w / r
+        double* const g = over_r + (to - from);  // w / r^2
         for (std::size_t r = row0; r < row1; ++r) {
             const double xi = x[first + r], zi = z[first + r];
 #pragma omp simd
-            for (std::uint32_t k = lists.start[r]; k < lists.start[r + 1]; ++k) {
-                all_dx[k] = x[neighbour[k]] - xi;
-                all_dz[k] = z[neighbour[k]] - zi;
+            for (std::size_t k = lists.start[r]; k < lists.start[r + 1]; ++k) {
+                dx[k] = x[neighbour[k]] - xi;
+                dz[k] = z[neighbour[k]] - zi;
             }
         }
         // one flat run: roots and divisions stay vectorised whatever the rows' lengths
-        thread_local std::vector<double> over_r_store;
-        over_r_store.resize(to - from);
-        double* const over_r = over_r_store.data() - from;  // w / r
 #pragma omp simd
-        for (std::uint32_t k = from; k < to; ++k) {
-            const double r2 = all_dx[k] * all_dx[k] + all_dz[k] * all_dz[k], r = std::sqrt(r2);
-            const double w = kernel.weight(r2), ratio = w / r;
-            all_w[k] = w, over_r[k] = ratio, all_g[k] = ratio / r;
+        for (std::size_t k = from; k < to; ++k) {
+            const double r2 = dx[k] * dx[k] + dz[k] * dz[k], r = std::sqrt(r2);
+            w[k] = kernel.weight(r2), over_r[k] = w[k] / r, g[k] = over_r[k] / r;
+        }
+#pragma omp simd
+        for (std::size_t k = from; k < to; ++k) {
+            all_dx[k] = static_cast<float>(dx[k]), all_dz[k] = static_cast<float>(dz[k]);
+            all_w[k] = static_cast<float>(w[k]), all_g[k] = static_cast<float>(g[k]);
         }
         for (std::size_t r = row0; r < row1; ++r) {
-            const std::uint32_t begin = lists.start[r], carriers = lists.carriers[r], end = lists.start[r + 1];
+            const std::size_t begin = lists.start[r], carriers = lists.carriers[r], end = lists.start[r + 1];
             double n = 0, fx = 0, fz = 0, sx = 0, sz = 0;
 #pragma omp simd reduction(+ : n, fx, fz, sx, sz)
-            for (std::uint32_t k = begin; k < end; ++k) {
-                const double dx = all_dx[k], dz = all_dz[k];
-                n += all_w[k], fx += over_r[k] * dx, fz += over_r[k] * dz, sx += all_g[k] * dx, sz += all_g[k] * dz;
+            for (std::size_t k = begin; k < end; ++k) {
+                n += w[k], fx += over_r[k] * dx[k], fz += over_r[k] * dz[k], sx += g[k] * dx[k], sz += g[k] * dz[k];
             }
             double xx = 0, xz = 0, zz = 0;
 #pragma omp simd reduction(+ : xx, xz, zz)
-            for (std::uint32_t k = carriers; k < end; ++k) {
-                const double g = all_g[k], dx = all_dx[k], dz = all_dz[k];
-                xx += g * dx * dx, xz += g * dx * dz, zz += g * dz * dz;
+            for (std::size_t k = carriers; k < end; ++k) {
+                xx += g[k] * dx[k] * dx[k], xz += g[k] * dx[k] * dz[k], zz += g[k] * dz[k] * dz[k];
             }
             out.number_density[r] = n;
             out.asymmetry_x[r] = fx, out.asymmetry_z[r] = fz;
@@ -75,12 +81,12 @@ void compute_interactions(const Kernel& kernel, const Particles& particles, cons
         }
         if (extras.slope)
 #pragma omp simd
-            for (std::uint32_t k = from; k < to; ++k)
-                out.slope[k] = kernel.slope(all_dx[k] * all_dx[k] + all_dz[k] * all_dz[k]);
+            for (std::size_t k = from; k < to; ++k)
+                out.slope[k] = static_cast<float>(kernel.slope(dx[k] * dx[k] + dz[k] * dz[k]));
         if (extras.curvature)
 #pragma omp simd
-            for (std::uint32_t k = from; k < to; ++k)
-                out.curvature[k] = kernel.curvature(all_dx[k] * all_dx[k] + all_dz[k] * all_dz[k]);
+            for (std::size_t k = from; k < to; ++k)
+                out.curvature[k] = static_cast<float>(kernel.curvature(dx[k] * dx[k] + dz[k] * dz[k]));
     });
 }
 

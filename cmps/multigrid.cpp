@@ -87,10 +87,10 @@ void Multigrid::coarsen(std::size_t level) {
     for (std::size_t c = 0; c < rows; ++c) {
         const auto begin = static_cast<std::uint32_t>(coarse.column.size());
         double diagonal = 0;
-        for (std::uint32_t m = here.child_start[c]; m < here.child_start[c + 1]; ++m) {
+        for (std::size_t m = here.child_start[c]; m < here.child_start[c + 1]; ++m) {
             const std::size_t i = static_cast<std::size_t>(here.children[m]);
             diagonal += fine.diagonal[i];
-            for (std::uint32_t k = fine.start[i]; k < fine.start[i + 1]; ++k) {
+            for (std::size_t k = fine.start[i]; k < fine.start[i + 1]; ++k) {
                 const std::int32_t to = here.parent[static_cast<std::size_t>(fine.column[k])];
                 if (to == static_cast<std::int32_t>(c)) {
                     diagonal += fine.value[k];
@@ -107,7 +107,7 @@ void Multigrid::coarsen(std::size_t level) {
         // sweeps need the entries left of the diagonal apart from those right of it; their order within does not matter
         auto end = static_cast<std::uint32_t>(coarse.column.size());
         std::uint32_t left = begin;
-        for (std::uint32_t k = begin; k < end; ++k)
+        for (std::size_t k = begin; k < end; ++k)
             if (coarse.column[k] < static_cast<std::int32_t>(c)) {
                 std::swap(coarse.column[k], coarse.column[left]);
                 std::swap(coarse.value[k], coarse.value[left]);
@@ -125,7 +125,7 @@ void Multigrid::factorise_coarsest() {
     dense_.assign(n * n, 0.0);
     for (std::size_t i = 0; i < n; ++i) {
         dense_[i * n + i] = matrix.diagonal[i];
-        for (std::uint32_t k = matrix.start[i]; k < matrix.upper[i]; ++k) dense_[i * n + static_cast<std::size_t>(matrix.column[k])] = matrix.value[k];
+        for (std::size_t k = matrix.start[i]; k < matrix.upper[i]; ++k) dense_[i * n + static_cast<std::size_t>(matrix.column[k])] = matrix.value[k];
     }
     for (std::size_t i = 0; i < n; ++i) {
         double* const row = &dense_[i * n];
@@ -166,14 +166,14 @@ void Multigrid::cycle(std::size_t level, const std::vector<double>& right, std::
     for (std::size_t i = 0; i < rows; ++i) {
         double sum = right[i];
 #pragma omp simd reduction(- : sum)
-        for (std::uint32_t k = matrix.start[i]; k < matrix.upper[i]; ++k) sum -= value[k] * x[column[k]];
+        for (std::size_t k = matrix.start[i]; k < matrix.upper[i]; ++k) sum -= value[k] * x[column[k]];
         x[i] = sum * here.inverse_diagonal[i];
     }
     std::fill(coarse.right.begin(), coarse.right.end(), 0.0);
     for (std::size_t i = 0; i < rows; ++i) {
         double sum = 0;
 #pragma omp simd reduction(- : sum)
-        for (std::uint32_t k = matrix.upper[i]; k < matrix.start[i + 1]; ++k) sum -= value[k] * x[column[k]];
+        for (std::size_t k = matrix.upper[i]; k < matrix.start[i + 1]; ++k) sum -= value[k] * x[column[k]];
         coarse.right[static_cast<std::size_t>(here.parent[i])] += sum;
     }
     cycle(level + 1, coarse.right, coarse.result);
@@ -182,7 +182,7 @@ void Multigrid::cycle(std::size_t level, const std::vector<double>& right, std::
     for (std::size_t i = rows; i-- > 0;) {
         double sum = right[i];
 #pragma omp simd reduction(- : sum)
-        for (std::uint32_t k = matrix.start[i]; k < matrix.start[i + 1]; ++k) sum -= value[k] * x[column[k]];
+        for (std::size_t k = matrix.start[i]; k < matrix.start[i + 1]; ++k) sum -= value[k] * x[column[k]];
         x[i] = sum * here.inverse_diagonal[i];
     }
 }

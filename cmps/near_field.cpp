@@ -153,7 +153,9 @@ void NearField::apply_gradient(double step) {
         const double ax = (particles.u[i] - old_u_[i]) / step, az = (particles.w[i] - old_w_[i]) / step;
         particles.acceleration_x[i] += share * (ax - particles.acceleration_x[i]);
         particles.acceleration_z[i] += share * (az - particles.acceleration_z[i]);
-        fastest = std::max(fastest, particles.u[i] * particles.u[i] + particles.w[i] * particles.w[i]);
+        // a lone drop in flight meets nobody within a step and limits none
+        if (place[i - particles.first_wall()] != Place::dry)
+            fastest = std::max(fastest, particles.u[i] * particles.u[i] + particles.w[i] * particles.w[i]);
     }
     largest_speed_ = std::sqrt(fastest);
     largest_acceleration_ = std::sqrt(strongest);
@@ -179,7 +181,7 @@ void NearField::push_apart(double step) {
         const double ui = particles.u[i], wi = particles.w[i];
         const double near2 = std::max(reach, l0) * std::max(reach, l0);
         double du = 0, dw = 0;
-        for (std::uint32_t k = lists.start[row]; k < lists.start[row + 1]; ++k) {
+        for (std::size_t k = lists.start[row]; k < lists.start[row + 1]; ++k) {
             const double dx = interactions.dx[k], dz = interactions.dz[k], r2 = dx * dx + dz * dz;
             if (r2 >= near2) continue;
             const std::size_t j = static_cast<std::size_t>(lists.neighbour[k]);

@@ -71,7 +71,7 @@ bool NeighbourSearch::update(Particles& particles, const std::vector<std::vector
         };
         for (std::size_t c = column0; c <= column1; ++c) {
             const std::uint32_t end = boundary_start_[c * cells.rows + row1 + 1];
-            for (std::uint32_t m = boundary_start_[c * cells.rows + row0]; m < end; ++m) test(boundary_members_[m]);
+            for (std::size_t m = boundary_start_[c * cells.rows + row0]; m < end; ++m) test(boundary_members_[m]);
         }
         std::sort(out, out + found);
         dummies = static_cast<std::uint32_t>(std::lower_bound(out, out + found, static_cast<std::int32_t>(first)) - out);

@@ -14,24 +14,24 @@ double PressureEquation::divergence(const Particles& particles, const NeighbourL
     const double ui = particles.u[i], wi = particles.w[i];
     const double* const u = particles.u.data();
     const double* const w = particles.w.data();
-    const double* const dx = interactions.dx.data();
-    const double* const dz = interactions.dz.data();
+    const float* const dx = interactions.dx.data();
+    const float* const dz = interactions.dz.data();
     const std::int32_t* const neighbour = lists.neighbour.data();
     if (settings_.source == Source::corrected) {
-        const double* const g = interactions.weight_over_r2.data();
+        const float* const g = interactions.weight_over_r2.data();
         double xx = 0, xz = 0, zx = 0, zz = 0;  // sum u_ij r_ij^T w / r^2
 #pragma omp simd reduction(+ : xx, xz, zx, zz)
-        for (std::uint32_t k = lists.carriers[row]; k < lists.start[row + 1]; ++k) {
+        for (std::size_t k = lists.carriers[row]; k < lists.start[row + 1]; ++k) {
             const double du = (u[neighbour[k]] - ui) * g[k], dw = (w[neighbour[k]] - wi) * g[k];
             xx += du * dx[k], xz += du * dz[k], zx += dw * dx[k], zz += dw * dz[k];
         }
         const Correction c = correction_of(interactions, row, lattice_.number_density);
         return 2.0 / lattice_.number_density * (c.xx * xx + c.xz * (xz + zx) + c.zz * zz);
     }
-    const double* const slope = interactions.slope.data();
+    const float* const slope = interactions.slope.data();
     double sum = 0;
 #pragma omp simd reduction(+ : sum)
-    for (std::uint32_t k = lists.start[row]; k < lists.start[row + 1]; ++k)
+    for (std::size_t k = lists.start[row]; k < lists.start[row + 1]; ++k)
         sum -= slope[k] * (dx[k] * (u[neighbour[k]] - ui) + dz[k] * (w[neighbour[k]] - wi));
     return sum / (lattice_.number_density * lattice_.divergence_scale);
 }
@@ -71,7 +71,7 @@ void PressureEquation::assemble(const Particles& particles, const NeighbourLists
     density_error.resize(rows);
 
     const bool is_higher_order = settings_.laplacian == Laplacian::higher_order;
-    const std::vector<double>& coefficient = is_higher_order ? interactions.curvature : interactions.weight;
+    const std::vector<float>& coefficient = is_higher_order ? interactions.curvature : interactions.weight;
     // both are scaled to sum c (p_i - p_j) = -scale * laplacian(p) on the lattice
     const double scale = is_higher_order ? lattice_.number_density * lattice_.laplacian_scale
                                          : lattice_.number_density * lattice_.lambda / 4.0;
@@ -82,7 +82,7 @@ void PressureEquation::assemble(const Particles& particles, const NeighbourLists
         double diagonal = 0;
         matrix.upper[a] = next;
         bool is_right = false;
-        for (std::uint32_t k = lists.carriers[row]; k < lists.start[row + 1]; ++k) {
+        for (std::size_t k = lists.carriers[row]; k < lists.start[row + 1]; ++k) {
             const double c = coefficient[k];
             diagonal += c;
             const std::int32_t b = unknown_of[static_cast<std::size_t>(lists.neighbour[k]) - first];

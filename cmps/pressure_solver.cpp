@@ -18,10 +18,10 @@ void IncompleteCholesky::factorise(const SparseMatrix& matrix) {
     for (std::size_t i = 0; i < rows; ++i) {
         const std::uint32_t begin = next;
         double pivot = matrix.diagonal[i];
-        for (std::uint32_t k = matrix.start[i]; k < matrix.upper[i]; ++k) {
+        for (std::size_t k = matrix.start[i]; k < matrix.upper[i]; ++k) {
             const std::int32_t j = matrix.column[k];
             double sum = matrix.value[k];
-            for (std::uint32_t m = start_[j]; m < start_[j + 1]; ++m) sum -= factor_[m] * scaled_[column_[m]];
+            for (std::size_t m = start_[j]; m < start_[j + 1]; ++m) sum -= factor_[m] * scaled_[column_[m]];
             scaled_[j] = sum;
             const double l = sum * inverse_diagonal_[j];
             pivot -= l * sum;
@@ -30,7 +30,7 @@ void IncompleteCholesky::factorise(const SparseMatrix& matrix) {
         }
         start_[i + 1] = next;
         inverse_diagonal_[i] = 1.0 / pivot;
-        for (std::uint32_t m = begin; m < next; ++m) scaled_[column_[m]] = 0.0;
+        for (std::size_t m = begin; m < next; ++m) scaled_[column_[m]] = 0.0;
     }
 }
 
@@ -41,13 +41,13 @@ void IncompleteCholesky::apply(const std::vector<double>& r, std::vector<double>
     double* const out = z.data();
     for (std::size_t i = 0; i < rows; ++i) {
         double sum = r[i];
-        for (std::uint32_t k = start_[i]; k < start_[i + 1]; ++k) sum -= factor[k] * out[column[k]];
+        for (std::size_t k = start_[i]; k < start_[i + 1]; ++k) sum -= factor[k] * out[column[k]];
         out[i] = sum;
     }
     for (std::size_t i = 0; i < rows; ++i) out[i] *= inverse_diagonal_[i];
     for (std::size_t i = rows; i-- > 0;) {
         const double value = out[i];
-        for (std::uint32_t k = start_[i]; k < start_[i + 1]; ++k) out[column[k]] -= factor[k] * value;
+        for (std::size_t k = start_[i]; k < start_[i + 1]; ++k) out[column[k]] -= factor[k] * value;
     }
 }
 

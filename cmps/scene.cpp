@@ -139,7 +139,7 @@ void read_output(const common::SceneFile& file, const Section& section, Scene& s
     const double interval = flow.number("interval", "s", "between samples", Range::positive(), 0.02);
     if (x[1] <= x[0]) flow.problem("x", "expected [x0, x1] with x0 < x1");
     if (z[1] <= z[0]) flow.problem("z", "expected [z0, z1] with z0 < z1");
-    if (x[0] < scene.offshore || x[1] > scene.onshore)
+    if (scene.offshore < scene.onshore && (x[0] < scene.offshore || x[1] > scene.onshore))
         flow.problem("x", fmt::format("the grid leaves the near field, x = {:g} to {:g} m", scene.offshore, scene.onshore));
     scene.flow = {.x0 = x[0], .x1 = x[1], .z0 = z[0], .z1 = z[1], .spacing = spacing, .interval = interval};
     scene.acceleration_smoothing = flow.number("acceleration_smoothing", "s", "time over which Du/Dt is averaged along the path", Range::not_negative(), interval);
@@ -221,7 +221,7 @@ Scene read_scene(const common::SceneFile& file) {
             section.problem("offshore", fmt::format("the moving wall at x = {:g} m stands in the structure (x = {:g} to {:g} m) or less than four particles ahead of it",
                                                     scene.offshore, x0, x1));
     }
-    if (scene.drive == Drive::waves && scene.offshore + scene.relaxation_length > scene.onshore && scene.boundary != Boundary::paper)
+    if (scene.drive == Drive::waves && scene.offshore < scene.onshore && scene.offshore + scene.relaxation_length > scene.onshore && scene.boundary != Boundary::paper)
         section.problem("relaxation_length", "the relaxation zone is longer than the near field");
     return scene;
 }

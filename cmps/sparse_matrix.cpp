@@ -11,7 +11,7 @@ void multiply(const SparseMatrix& matrix, const std::vector<double>& x, std::vec
     common::parallel_for(matrix.rows(), 8000, [&](std::size_t i) {
         double sum = matrix.diagonal[i] * in[i];
 #pragma omp simd reduction(+ : sum)
-        for (std::uint32_t k = matrix.start[i]; k < matrix.start[i + 1]; ++k) sum += value[k] * in[column[k]];
+        for (std::size_t k = matrix.start[i]; k < matrix.start[i + 1]; ++k) sum += value[k] * in[column[k]];
         y[i] = sum;
     });
 }

@@ -12,7 +12,7 @@ void Containment::end_step(NearField& field, double, double) {
     for (std::size_t f = 0; f < particles.fluid; ++f) {
         const std::size_t i = first + f, row = walls + f;
         bool is_near = false;
-        for (std::uint32_t k = lists.start[row]; k < lists.start[row + 1]; ++k) {
+        for (std::size_t k = lists.start[row]; k < lists.start[row + 1]; ++k) {
             if (particles.is_fluid(static_cast<std::size_t>(lists.neighbour[k]))) break;
             const double dx = field.interactions.dx[k], dz = field.interactions.dz[k];
             if (dx * dx + dz * dz < near2) {

@@ -16,7 +16,7 @@ void Turbulence::accelerate(NearField& field, double, double step) {
     common::parallel_for(particles.fluid, 2000, [&](std::size_t f) {
         const std::size_t row = walls + f, i = first + f;
         double ux = 0, uz = 0, wx = 0, wz = 0;
-        for (std::uint32_t k = lists.carriers[row]; k < lists.start[row + 1]; ++k) {
+        for (std::size_t k = lists.carriers[row]; k < lists.start[row + 1]; ++k) {
             const std::int32_t j = lists.neighbour[k];
             const double du = (particles.u[j] - particles.u[i]) * pairs.weight_over_r2[k];
             const double dw = (particles.w[j] - particles.w[i]) * pairs.weight_over_r2[k];
@@ -32,7 +32,7 @@ void Turbulence::accelerate(NearField& field, double, double step) {
     common::parallel_for(particles.fluid, 2000, [&](std::size_t f) {
         const std::size_t row = walls + f, i = first + f;
         double su = 0, sw = 0;
-        for (std::uint32_t k = lists.carriers[row]; k < lists.start[row + 1]; ++k) {
+        for (std::size_t k = lists.carriers[row]; k < lists.start[row + 1]; ++k) {
             const std::size_t j = static_cast<std::size_t>(lists.neighbour[k]);
             if (j < first) continue;  // walls slip: the boundary layer is not resolved
             const double share = 0.5 * (eddy_viscosity_[f] + eddy_viscosity_[j - first]) * pairs.weight[k];

@@ -13,7 +13,7 @@ void Viscosity::accelerate(NearField& field, double, double step) {
     common::parallel_for(particles.fluid, 2000, [&](std::size_t f) {
         const std::size_t row = walls + f, i = first + f;
         double su = 0, sw = 0;
-        for (std::uint32_t k = lists.start[row]; k < lists.start[row + 1]; ++k) {
+        for (std::size_t k = lists.start[row]; k < lists.start[row + 1]; ++k) {
             const std::int32_t j = lists.neighbour[k];
             su += field.interactions.weight[k] * (particles.u[j] - particles.u[i]);
             sw += field.interactions.weight[k] * (particles.w[j] - particles.w[i]);

@@ -80,8 +80,8 @@ void linear_pressure(cmps::Gradient kind, double jitter, double& mean, double& d
 TEST(Gradient, CorrectedFormIsExactForLinearPressure) {
     double mean, deviation;
     linear_pressure(cmps::Gradient::corrected, 0.1, mean, deviation);
-    EXPECT_NEAR(mean, 1.0, 1e-10);      // round-off
-    EXPECT_LT(deviation, 1e-10);        // round-off
+    EXPECT_NEAR(mean, 1.0, 1e-6);       // pairs are kept as float
+    EXPECT_LT(deviation, 1e-6);
 }
 
 TEST(Gradient, StandardAndModifiedFormsAreRightOnTheMean) {
@@ -103,8 +103,8 @@ TEST(Gradient, LocalMinimaMakeEquationFiveBlindToLinearPressure) {
 TEST(Gradient, GlobalMinimumMakesEquationFiveConsistentOnALattice) {
     double mean, deviation;
     linear_pressure(cmps::Gradient::antisymmetric_global, 0.0, mean, deviation);
-    EXPECT_NEAR(mean, 1.0, 1e-10);      // round-off: the lattice's own sums are the scale n0
-    EXPECT_LT(deviation, 1e-10);
+    EXPECT_NEAR(mean, 1.0, 1e-5);       // float pairs times pressures ten times their differences
+    EXPECT_LT(deviation, 1e-5);
 }
 
 }  // namespace
