@@ -140,6 +140,7 @@ void restore(Simulation& simulation, const Snapshot& snapshot) {
 }
 
 void mount_layout(Simulation& simulation, const Scene& scene, const PackedPoses& packed, const Wires* earlier) {
+    if (!scene.effects.wires) return;
     Wires wires;
     wires.law = scene.wires.law;
     wires.longest_stretch =

@@ -208,7 +208,7 @@ void run(const common::StageCommand& command, const common::SceneFile& file, con
         if (folder.start() == common::OutputFolder::Start::go_on) {
             const Snapshot snapshot = snapshot_from(folder.state());
             start = {.simulation = build_simulation(scene, true), .packed = snapshot.packed, .t = snapshot.t};
-            start.simulation->mount_wires(snapshot.wires);
+            if (scene.effects.wires) start.simulation->mount_wires(snapshot.wires);
             restore(*start.simulation, snapshot);
             report.restore(folder.state());
         } else {
