@@ -102,6 +102,13 @@ Report::Report(const std::filesystem::path& folder, const common::SceneFile& fil
     record_.set_effects(scene.effects);
     if (scene.waves.length > 0 && scene.waves.period > 0) {
         record_.set_figure("waves.length", scene.waves.length);
+        if (scene.waves.kind == WaveKind::regular)
+            record_.set_note("waves.form",
+                             ursell_number(scene.waves.height, scene.waves.length, scene.waves.depth) < 26.0
+                                 ? "permanent form of the equations solved, in the range of Stokes waves "
+                                   "(Ursell number below 26)"
+                                 : "permanent form of the equations solved, in the range of cnoidal waves "
+                                   "(Ursell number above 26)");
         record_.set_figure("waves.ursell",
                            ursell_number(scene.waves.height, scene.waves.length, scene.waves.depth));
     }
