@@ -5,14 +5,22 @@
 
 namespace common {
 
+namespace {
+/// The same instant must have the same bits however it was counted (41 x 0.05 or 82 x 0.025): whole
+/// nanoseconds.
+double to_nanosecond(double t) {
+    return std::round(t * 1e9) / 1e9;
+}
+}  // namespace
+
 WindowClock::WindowClock(double start, double end, double length)
-    : start_(start), end_(end), length_(length) {
+    : start_(start), end_(to_nanosecond(end)), length_(length) {
     // A remainder below rounding is no window of its own.
     count_ = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil((end - start) / length - 1e-9)));
 }
 
 double WindowClock::begin_of(std::int64_t index) const {
-    return start_ + static_cast<double>(index) * length_;
+    return to_nanosecond(start_ + static_cast<double>(index) * length_);
 }
 
 double WindowClock::end_of(std::int64_t index) const {
@@ -25,7 +33,7 @@ std::vector<double> WindowClock::samples_in(std::int64_t index, double interval)
     std::vector<double> samples{begin};
     for (auto k = static_cast<std::int64_t>(std::floor(begin / interval));
          static_cast<double>(k) * interval < end - sliver; ++k) {
-        const double t = static_cast<double>(k) * interval;
+        const double t = to_nanosecond(static_cast<double>(k) * interval);
         if (t > begin + sliver) samples.push_back(t);
     }
     samples.push_back(end);

@@ -6,7 +6,8 @@
 
 namespace common {
 
-/// Windows [start + k length, start + (k+1) length], the last one cut at `end`. All times in s.
+/// Windows [start + k length, start + (k+1) length], the last one cut at `end`. All times in s, and whole
+/// nanoseconds, so that the same instant has the same bits whatever the window length.
 class WindowClock {
  public:
     WindowClock(double start, double end, double length);

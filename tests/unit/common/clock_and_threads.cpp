@@ -7,6 +7,23 @@
 
 using namespace common;
 
+TEST(WindowClock, TheSameInstantHasTheSameBitsForAnyWindowLength) {
+    const auto all_samples = [](double length) {
+        const WindowClock clock(2.0, 7.0, length);
+        std::vector<double> all;
+        for (std::int64_t k = 0; k < clock.window_count(); ++k) {
+            auto samples = clock.samples_in(k, 0.025);
+            all.insert(all.end(), samples.begin() + (k > 0), samples.end());
+        }
+        return all;
+    };
+    const auto whole = all_samples(5.0);
+    EXPECT_EQ(whole.size(), 201u);
+    EXPECT_EQ(all_samples(0.05), whole);
+    EXPECT_EQ(all_samples(0.5), whole);
+    EXPECT_EQ(all_samples(0.7), whole);  // 0.7 is 28 samples; the last window is shorter
+}
+
 TEST(WindowClock, LastWindowEndsExactlyAtTheEnd) {
     const WindowClock clock(0, 2.5, 1);
     EXPECT_EQ(clock.window_count(), 3);
@@ -17,11 +34,11 @@ TEST(WindowClock, LastWindowEndsExactlyAtTheEnd) {
 
 TEST(WindowClock, SamplesHoldBothEndsAndDoNotDependOnTheWindowLength) {
     const WindowClock clock(0, 1, 0.25);
-    EXPECT_EQ(clock.samples_in(1, 0.1), (std::vector<double>{0.25, 3 * 0.1, 4 * 0.1, 0.5}));
+    EXPECT_EQ(clock.samples_in(1, 0.1), (std::vector<double>{0.25, 0.3, 0.4, 0.5}));
     const WindowClock whole(0, 1, 1);
     const auto samples = whole.samples_in(0, 0.1);
     ASSERT_EQ(samples.size(), 11u);
-    EXPECT_EQ(samples[3], 3 * 0.1);
+    EXPECT_EQ(samples[3], 0.3);
 }
 
 TEST(WindowClock, SamplesOfALongRunHaveNoSlivers) {
