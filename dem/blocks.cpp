@@ -2,8 +2,8 @@
 
 namespace dem {
 
-void Blocks::add(int shape_index, const Vector& at, const Quaternion& turned, bool fixed, const Vector& with_velocity,
-                 const Vector& with_angular_velocity) {
+void Blocks::add(int shape_index, const Vector& at, const Quaternion& turned, bool fixed,
+                 const Vector& with_velocity, const Vector& with_angular_velocity) {
     shape.push_back(shape_index);
     is_fixed.push_back(fixed ? 1 : 0);
     mass_ratio.push_back(1);

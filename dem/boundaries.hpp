@@ -29,9 +29,11 @@ class FixedSpheres {
     double lowest() const { return lowest_; }
     double highest() const { return highest_; }
 
-    /// Appends to `found` the spheres whose centres are within `distance` (<= reach) of `point`, in ascending order.
+    /// Appends to `found` the spheres whose centres are within `distance` (<= reach) of `point`, in ascending
+    /// order.
     void find_near(const Vector& point, double distance, std::vector<std::uint32_t>& found) const;
-    /// Height of the highest sphere centre within `distance` (horizontally) of x, y; -infinity where there is none.
+    /// Height of the highest sphere centre within `distance` (horizontally) of x, y; -infinity where there is
+    /// none.
     double highest_near(double x, double y, double distance) const;
 
  private:

@@ -15,10 +15,13 @@ namespace dem {
 std::unique_ptr<Simulation> build_simulation(const Scene& scene, bool with_water) {
     auto simulation = std::make_unique<Simulation>(
         scene.placed, scene.surroundings,
-        make_contact_model(scene.contact, scene.material, scene.element.diameter, scene.reference_overlap), scene.gravity,
-        scene.step);
+        make_contact_model(scene.contact, scene.material, scene.element.diameter, scene.reference_overlap),
+        scene.gravity, scene.step);
     if (with_water && scene.effects.fluid_force)
-        simulation->add_water({.water = scene.water, .element = scene.element, .gravity = scene.gravity, .displaced_volume = scene.displaced_volume},
+        simulation->add_water({.water = scene.water,
+                               .element = scene.element,
+                               .gravity = scene.gravity,
+                               .displaced_volume = scene.displaced_volume},
                               scene.uniform_water);
     if (scene.effects.sleeping) simulation->add_sleeping(scene.sleep);
     return simulation;
@@ -35,15 +38,20 @@ void settle(Simulation& simulation, const PackingRules& rules, const std::functi
         for (std::size_t i = 0; i < simulation.blocks.size(); ++i)
             if (!simulation.blocks.is_fixed[i])
                 fastest = std::max(fastest, simulation.blocks.velocity[i].norm() +
-                                                simulation.blocks.angular_velocity[i].norm() * simulation.blocks.shape_of(i).radius);
+                                                simulation.blocks.angular_velocity[i].norm() *
+                                                    simulation.blocks.shape_of(i).radius);
         // Calm over several looks: a block at the top of a bounce is slow for an instant only.
         calm = fastest < rules.speed ? calm + 1 : 0;
         if (calm >= 5) return;
     }
-    throw common::RunError(fmt::format("packing: blocks still move after {} s; raise dem.packing.longest or dem.packing.speed", rules.longest));
+    throw common::RunError(
+        fmt::format("packing: blocks still move after {} s; raise dem.packing.longest or dem.packing.speed",
+                    rules.longest));
 }
 
-PackedPoses poses_of(const Blocks& blocks) { return {blocks.position, blocks.orientation}; }
+PackedPoses poses_of(const Blocks& blocks) {
+    return {blocks.position, blocks.orientation};
+}
 
 void take_over(Simulation& simulation, const PackedPoses& packed, const std::vector<Pair>& contacts) {
     for (std::size_t i = 0; i < simulation.blocks.size(); ++i)
@@ -65,26 +73,32 @@ double distance(const PackedPoses& poses, const Blocks& blocks, const WirePlace&
 
 void check_same_scene(const std::string& digest, const Scene& scene, const std::filesystem::path& from) {
     if (digest != placement_digest(scene.placed, scene.surroundings))
-        throw common::InputError(fmt::format("{}: a state of another scene (shapes, places, mound or walls differ)", from.string()));
+        throw common::InputError(fmt::format(
+            "{}: a state of another scene (shapes, places, mound or walls differ)", from.string()));
 }
 
-/// The sample of a window closest to `time` (the last one without), with packed poses and wires of its geometry file.
+/// The sample of a window closest to `time` (the last one without), with packed poses and wires of its
+/// geometry file.
 Snapshot snapshot_from_window(const std::filesystem::path& from, const Scene& scene) {
-    const common::Window window = common::read_window(from, "dem", {{"/time", "s", {"nt"}},
-                                                                   {"/blocks/position", "m", {"nt", "nb", "3"}},
-                                                                   {"/blocks/orientation", "-", {"nt", "nb", "4"}},
-                                                                   {"/blocks/velocity", "m/s", {"nt", "nb", "3"}},
-                                                                   {"/blocks/angular_velocity", "rad/s", {"nt", "nb", "3"}}});
+    const common::Window window =
+        common::read_window(from, "dem",
+                            {{"/time", "s", {"nt"}},
+                             {"/blocks/position", "m", {"nt", "nb", "3"}},
+                             {"/blocks/orientation", "-", {"nt", "nb", "4"}},
+                             {"/blocks/velocity", "m/s", {"nt", "nb", "3"}},
+                             {"/blocks/angular_velocity", "rad/s", {"nt", "nb", "3"}}});
     const common::DataFile geometry = common::read_data_file(from.parent_path() / "geometry.h5");
     check_same_scene(geometry.text("placement_digest"), scene, from);
     const auto times = window.at("/time").as_double();
     std::size_t sample = times.size() - 1;
     if (scene.restart_time) {
-        const auto close = std::find_if(times.begin(), times.end(), [&](double t) { return std::abs(t - *scene.restart_time) < 1e-6; });
+        const auto close = std::find_if(times.begin(), times.end(),
+                                        [&](double t) { return std::abs(t - *scene.restart_time) < 1e-6; });
         if (close == times.end())
-            throw common::InputError(fmt::format("{}: no sample at dem.restart.time = {} s; it holds {} to {} s every {} s", from.string(),
-                                                 *scene.restart_time, times.front(), times.back(),
-                                                 times.size() > 1 ? times[1] - times[0] : 0.0));
+            throw common::InputError(
+                fmt::format("{}: no sample at dem.restart.time = {} s; it holds {} to {} s every {} s",
+                            from.string(), *scene.restart_time, times.front(), times.back(),
+                            times.size() > 1 ? times[1] - times[0] : 0.0));
         sample = static_cast<std::size_t>(close - times.begin());
     }
     Snapshot snapshot;
@@ -97,20 +111,24 @@ Snapshot snapshot_from_window(const std::filesystem::path& from, const Scene& sc
     const auto velocity = vectors_from(window.at("/blocks/velocity"));
     const auto spin = vectors_from(window.at("/blocks/angular_velocity"));
     if (position.size() != times.size() * count)
-        throw common::InputError(fmt::format("{}: holds {} blocks, the scene {}", from.string(), position.size() / times.size(), count));
+        throw common::InputError(fmt::format("{}: holds {} blocks, the scene {}", from.string(),
+                                             position.size() / times.size(), count));
     snapshot.blocks.shapes = scene.placed.shapes;
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t k = sample * count + i;
         const Shape& shape = scene.placed.shape_of(i);
-        snapshot.blocks.add(scene.placed.shape[i], position[k], orientation[k] * shape.body_from_file.conjugate(),
-                            scene.placed.is_fixed[i] != 0, velocity[k], spin[k]);
+        snapshot.blocks.add(scene.placed.shape[i], position[k],
+                            orientation[k] * shape.body_from_file.conjugate(), scene.placed.is_fixed[i] != 0,
+                            velocity[k], spin[k]);
     }
     const auto& ends = geometry.at("/wires/ends").integers();
     const auto& rest = geometry.at("/wires/rest_length").doubles();
     const auto& stiffness = geometry.at("/wires/stiffness").doubles();
     for (std::size_t w = 0; w < rest.size(); ++w) {
-        snapshot.wires.add(static_cast<std::uint32_t>(ends[4 * w]), static_cast<std::uint32_t>(ends[4 * w + 1]),
-                           static_cast<std::uint32_t>(ends[4 * w + 2]), static_cast<std::uint32_t>(ends[4 * w + 3]), rest[w], stiffness[w]);
+        snapshot.wires.add(static_cast<std::uint32_t>(ends[4 * w]),
+                           static_cast<std::uint32_t>(ends[4 * w + 1]),
+                           static_cast<std::uint32_t>(ends[4 * w + 2]),
+                           static_cast<std::uint32_t>(ends[4 * w + 3]), rest[w], stiffness[w]);
         snapshot.wires.is_intact[w] = window.at("/wires/intact").as_double()[sample * rest.size() + w] > 0.5;
     }
     snapshot.memory.time = snapshot.t;
@@ -123,12 +141,14 @@ Snapshot read_start(const std::filesystem::path& from, const Scene& scene) {
     if (from.filename().string().starts_with("window_")) return snapshot_from_window(from, scene);
     const common::DataFile file = common::read_data_file(from);
     if (file.text("schema") != "tsunagi.dem.state/1")
-        throw common::InputError(fmt::format("{}: not a state of dem (schema '{}')", from.string(), file.text("schema")));
+        throw common::InputError(
+            fmt::format("{}: not a state of dem (schema '{}')", from.string(), file.text("schema")));
     check_same_scene(file.text("placement_digest"), scene, from);
     Snapshot snapshot = snapshot_from(file);
     if (scene.restart_time && std::abs(*scene.restart_time - snapshot.t) > 1e-6)
-        throw common::InputError(fmt::format("{}: holds t = {} s only; dem.restart.time = {} s needs the window of that instant", from.string(),
-                                             snapshot.t, *scene.restart_time));
+        throw common::InputError(
+            fmt::format("{}: holds t = {} s only; dem.restart.time = {} s needs the window of that instant",
+                        from.string(), snapshot.t, *scene.restart_time));
     return snapshot;
 }
 
@@ -139,12 +159,13 @@ void restore(Simulation& simulation, const Snapshot& snapshot) {
     simulation.restore(snapshot.memory);
 }
 
-void mount_layout(Simulation& simulation, const Scene& scene, const PackedPoses& packed, const Wires* earlier) {
+void mount_layout(Simulation& simulation, const Scene& scene, const PackedPoses& packed,
+                  const Wires* earlier) {
     if (!scene.effects.wires) return;
     Wires wires;
     wires.law = scene.wires.law;
-    wires.longest_stretch =
-        scene.effects.wire_breaking ? scene.wires.psi * scene.element.diameter : std::numeric_limits<double>::infinity();
+    wires.longest_stretch = scene.effects.wire_breaking ? scene.wires.psi * scene.element.diameter
+                                                        : std::numeric_limits<double>::infinity();
     std::map<WirePlace, std::size_t> known;
     if (earlier != nullptr)
         for (std::size_t k = 0; k < earlier->size(); ++k)
@@ -171,16 +192,21 @@ void mount_layout(Simulation& simulation, const Scene& scene, const PackedPoses&
 
 void put_back(Simulation& simulation, const std::vector<std::uint32_t>& chosen, const PackedPoses& packed) {
     Blocks& blocks = simulation.blocks;
-    for (const auto i : chosen) blocks.place(i, packed.position[i], packed.orientation[i], Vector::Zero(), Vector::Zero());
-    // As a crane would: up until free of the neighbours, then let go. What rests against a wall may stay pressed a little.
+    for (const auto i : chosen)
+        blocks.place(i, packed.position[i], packed.orientation[i], Vector::Zero(), Vector::Zero());
+    // As a crane would: up until free of the neighbours, then let go. What rests against a wall may stay
+    // pressed a little.
     const double step = 0.05 * blocks.shape_of(0).diameter, free = 0.02 * blocks.shape_of(0).diameter;
     const double highest = 3 * blocks.shape_of(0).height;
     for (const auto i : chosen) {
         double lift = 0;
-        for (; deepest_overlap(blocks, simulation.surroundings(), i).depth > free && lift < highest; lift += step)
+        for (; deepest_overlap(blocks, simulation.surroundings(), i).depth > free && lift < highest;
+             lift += step)
             blocks.position[i].z() = packed.position[i].z() + lift + step;
         if (lift >= highest)
-            throw common::InputError(fmt::format("wires.put_back: block {} does not fit back into its place, not even lifted by {:.2g} m", i + 1, lift));
+            throw common::InputError(fmt::format(
+                "wires.put_back: block {} does not fit back into its place, not even lifted by {:.2g} m",
+                i + 1, lift));
     }
 }
 

@@ -11,8 +11,8 @@
 
 namespace dem {
 
-/// Blocks at their placed poses, with the water the scene gives (uniform, until a flow grid takes its place) and, unless
-/// off, sleeping. No wires yet.
+/// Blocks at their placed poses, with the water the scene gives (uniform, until a flow grid takes its place)
+/// and, unless off, sleeping. No wires yet.
 std::unique_ptr<Simulation> build_simulation(const Scene& scene, bool with_water);
 
 /// Lets the blocks settle in still water. `progress` is called now and then with the time.
@@ -22,9 +22,11 @@ void settle(Simulation& simulation, const PackingRules& rules, const std::functi
 /// Takes up settled poses and their contacts, at rest.
 void take_over(Simulation& simulation, const PackedPoses& packed, const std::vector<Pair>& contacts);
 
-/// Mounts the layout. Wires that `earlier` (may be null) already has between the same spheres keep rest length and damage,
-/// unless one of their blocks was put back; new ones take the distance at packing, or the present one in a restart.
-void mount_layout(Simulation& simulation, const Scene& scene, const PackedPoses& packed, const Wires* earlier);
+/// Mounts the layout. Wires that `earlier` (may be null) already has between the same spheres keep rest
+/// length and damage, unless one of their blocks was put back; new ones take the distance at packing, or the
+/// present one in a restart.
+void mount_layout(Simulation& simulation, const Scene& scene, const PackedPoses& packed,
+                  const Wires* earlier);
 
 /// A state or a window of an earlier run (`dem.restart.time` chooses the instant of a window).
 /// Throws common::InputError when it belongs to another scene.

@@ -17,7 +17,8 @@ double seconds_of(const auto& work) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
 }
 
-/// Time of one step of the scene's own blocks, once they have come down: a tenth of a second of packing, then a timed stretch.
+/// Time of one step of the scene's own blocks, once they have come down: a tenth of a second of packing, then
+/// a timed stretch.
 double seconds_per_step(const Scene& scene) {
     const auto simulation = build_simulation(scene, true);
     simulation->start(0);
@@ -26,7 +27,8 @@ double seconds_per_step(const Scene& scene) {
     const auto before = simulation->steps();
     const double begun = simulation->time();
     double spent = 0;
-    while (spent < 0.2 && simulation->time() < begun + 2) spent += seconds_of([&] { simulation->advance(simulation->time() + 0.01); });
+    while (spent < 0.2 && simulation->time() < begun + 2)
+        spent += seconds_of([&] { simulation->advance(simulation->time() + 0.01); });
     return spent / static_cast<double>(simulation->steps() - before);
 }
 
@@ -39,18 +41,22 @@ void check(const common::StageCommand& command, const common::SceneFile& file, c
         spheres += scene.placed.shape_of(i).spheres.size();
         moving += !scene.placed.is_fixed[i];
     }
-    fmt::print("blocks: {} ({} free to move, {} spheres), fixed spheres: {}, planes: {}, links: {}\n", scene.placed.size(), moving, spheres,
-               scene.surroundings.fixed_spheres.size(), scene.surroundings.planes.size(), scene.wires.links.size());
+    fmt::print("blocks: {} ({} free to move, {} spheres), fixed spheres: {}, planes: {}, links: {}\n",
+               scene.placed.size(), moving, spheres, scene.surroundings.fixed_spheres.size(),
+               scene.surroundings.planes.size(), scene.wires.links.size());
     for (const auto& effect : scene.effects.records)
         fmt::print("effect {}: {} ({})\n", effect.name, effect.is_on ? "on" : "off", effect.reason);
     const double steps = std::ceil(scene.time.end / scene.step.time_step);
     fmt::print("time step: {} s ({}), steps: at most {}\n", scene.step.time_step,
                scene.time_step_is_chosen ? "chosen" : "given", steps);
     const double each = seconds_per_step(scene);
-    fmt::print("forecast: {:.3g} ms a step with all blocks awake, {:.3g} s for all of {} s (the flow may start later; sleeping saves more)\n",
-               1e3 * each, each * steps, scene.time.end);
-    fmt::print("expected error: energy balance about {:.1g} of what contacts dissipate (first order in the step)\n",
-               0.01 * scene.step.time_step / 1e-4 * std::sqrt(scene.material.young_modulus / 1e7));
+    fmt::print(
+        "forecast: {:.3g} ms a step with all blocks awake, {:.3g} s for all of {} s (the flow may start "
+        "later; sleeping saves more)\n",
+        1e3 * each, each * steps, scene.time.end);
+    fmt::print(
+        "expected error: energy balance about {:.1g} of what contacts dissipate (first order in the step)\n",
+        0.01 * scene.step.time_step / 1e-4 * std::sqrt(scene.material.young_modulus / 1e7));
 }
 
 }  // namespace dem

@@ -22,7 +22,9 @@ struct HertzLaw {
         return twice_contact_modulus * std::sqrt(reduced_radius * overlap);
     }
     static double force(double stiffness, double overlap) { return 2.0 / 3.0 * stiffness * overlap; }
-    static double energy(double stiffness, double overlap) { return 4.0 / 15.0 * stiffness * overlap * overlap; }
+    static double energy(double stiffness, double overlap) {
+        return 4.0 / 15.0 * stiffness * overlap * overlap;
+    }
 };
 
 /// F = k_n overlap, with k_n of Hertz theory at a reference overlap.
@@ -45,8 +47,9 @@ struct TangentialForce {
 
 /// Mindlin spring with history, dashpot, and the Coulomb limit.
 ///
-/// The spring's force is stored, not its displacement: a displacement times a stiffness that grows with the overlap
-/// would gain energy. When the contact unloads, the force shrinks with the stiffness (Thornton et al. 2013).
+/// The spring's force is stored, not its displacement: a displacement times a stiffness that grows with the
+/// overlap would gain energy. When the contact unloads, the force shrinks with the stiffness (Thornton et al.
+/// 2013).
 struct CoulombFriction {
     double coefficient;
     double stiffness_ratio;  ///< tangential over normal
@@ -58,7 +61,8 @@ struct CoulombFriction {
           root_of_ratio(std::sqrt(stiffness_ratio)) {}
 
     /// `spring`: stored force on the first body (updated); `stiffness_before`: normal stiffness one step ago.
-    /// `slip_speed`: velocity of the first body relative to the second, tangential, m/s. `dashpot`: of the normal direction, kg/s.
+    /// `slip_speed`: velocity of the first body relative to the second, tangential, m/s. `dashpot`: of the
+    /// normal direction, kg/s.
     TangentialForce force(Vector& spring, double stiffness_before, double stiffness, const Vector& normal,
                           const Vector& slip_speed, double normal_force, double dashpot, double dt) const {
         const double tangential_stiffness = stiffness_ratio * stiffness;
@@ -87,7 +91,8 @@ struct CoulombFriction {
         const Vector drag = -root_of_ratio * dashpot * slip_speed;
         double share = 1;
         if ((spring + drag).squaredNorm() > limit_squared) {
-            const double square = drag.squaredNorm(), along = spring.dot(drag), room = limit_squared - length_squared;
+            const double square = drag.squaredNorm(), along = spring.dot(drag),
+                         room = limit_squared - length_squared;
             share = square > 0 ? (std::sqrt(along * along + square * room) - along) / square : 0.0;
         }
         return {share * drag, dissipated};
@@ -100,7 +105,8 @@ struct CoulombFriction {
 
 /// mu = 0.
 struct Frictionless {
-    static TangentialForce force(Vector&, double, double, const Vector&, const Vector&, double, double, double) {
+    static TangentialForce force(Vector&, double, double, const Vector&, const Vector&, double, double,
+                                 double) {
         return {Vector::Zero(), 0};
     }
     static double ratio() { return 0; }

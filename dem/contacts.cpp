@@ -19,7 +19,8 @@ struct Touch {
 };
 
 /// Centre of the partner seen from that of the block; nothing for bodies that do not move.
-Vector partner_from_block(const Blocks& blocks, const Surroundings& surroundings, const PairList& list, const Pair& pair) {
+Vector partner_from_block(const Blocks& blocks, const Surroundings& surroundings, const PairList& list,
+                          const Pair& pair) {
     if (!list.is_block(pair.partner)) return Vector(0, 0, 0);
     Vector offset = blocks.position[pair.partner] - blocks.position[pair.block];
     offset.y() += pair.image * surroundings.period;
@@ -27,21 +28,22 @@ Vector partner_from_block(const Blocks& blocks, const Surroundings& surroundings
 }
 
 /// The touching spheres of a pair, in order of candidates, appended to `touches`.
-void find_touches(const Blocks& blocks, const Surroundings& surroundings, const PairList& list, const Pair& pair,
-                  std::vector<Touch>& touches) {
+void find_touches(const Blocks& blocks, const Surroundings& surroundings, const PairList& list,
+                  const Pair& pair, std::vector<Touch>& touches) {
     const Shape& shape = blocks.shape_of(pair.block);
     const Rotation& turn = blocks.rotation[pair.block];
     const Vector& centre = blocks.position[pair.block];
     const double radius = 0.5 * shape.diameter;
     const double shift = pair.image * surroundings.period;
 
-    const auto add = [&](const Candidate& candidate, const Vector& arm, const Vector& between, double squared, double reach,
-                         double partner_radius) {
+    const auto add = [&](const Candidate& candidate, const Vector& arm, const Vector& between, double squared,
+                         double reach, double partner_radius) {
         const double distance = std::sqrt(squared);
         const double overlap = reach - distance;
         // Two centres at one place (a user's start) have no normal; up is as good as any.
         const Vector normal = distance > 0 ? Vector(between * (1 / distance)) : Vector(0, 0, -1);
-        touches.push_back({candidate.a, candidate.b, overlap, normal, arm + (radius - overlap * partner_radius / reach) * normal});
+        touches.push_back({candidate.a, candidate.b, overlap, normal,
+                           arm + (radius - overlap * partner_radius / reach) * normal});
     };
 
     if (list.is_block(pair.partner)) {
@@ -74,13 +76,15 @@ void find_touches(const Blocks& blocks, const Surroundings& surroundings, const 
             const Vector arm = turn * shape.spheres[candidate.a];
             const double overlap = radius - height - arm.dot(plane.normal);
             if (overlap <= 0) continue;
-            touches.push_back({candidate.a, candidate.b, overlap, -plane.normal, arm - (radius - 0.5 * overlap) * plane.normal});
+            touches.push_back({candidate.a, candidate.b, overlap, -plane.normal,
+                               arm - (radius - 0.5 * overlap) * plane.normal});
         }
     }
 }
 
 /// R* of a pair's spheres, m.
-double reduced_radius(const Blocks& blocks, const Surroundings& surroundings, const PairList& list, const Pair& pair) {
+double reduced_radius(const Blocks& blocks, const Surroundings& surroundings, const PairList& list,
+                      const Pair& pair) {
     const double radius = 0.5 * blocks.shape_of(pair.block).diameter;
     if (list.is_block(pair.partner)) {
         const double other = 0.5 * blocks.shape_of(pair.partner).diameter;
@@ -96,12 +100,13 @@ double reduced_radius(const Blocks& blocks, const Surroundings& surroundings, co
 /// Mass of the two-body system, kg.
 double reduced_mass(const Blocks& blocks, const PairList& list, const Pair& pair) {
     double inverse = blocks.is_fixed[pair.block] ? 0 : 1 / blocks.mass(pair.block);
-    if (list.is_block(pair.partner) && !blocks.is_fixed[pair.partner]) inverse += 1 / blocks.mass(pair.partner);
+    if (list.is_block(pair.partner) && !blocks.is_fixed[pair.partner])
+        inverse += 1 / blocks.mass(pair.partner);
     return 1 / inverse;
 }
 
-/// Asks for the memory of the pairs to come. Thousands of pairs do not stay in the near caches, and each is a few pieces
-/// of memory: waiting for them one by one took longer than the arithmetic.
+/// Asks for the memory of the pairs to come. Thousands of pairs do not stay in the near caches, and each is a
+/// few pieces of memory: waiting for them one by one took longer than the arithmetic.
 void fetch_ahead(const PairList& list, std::span<const std::uint32_t> active, std::size_t k) {
     constexpr std::size_t far = 8, near = 4;
     constexpr std::size_t line = 64;
@@ -110,10 +115,12 @@ void fetch_ahead(const PairList& list, std::span<const std::uint32_t> active, st
     for (std::size_t byte = 0; byte < sizeof(Pair); byte += line) __builtin_prefetch(pair + byte);
     const Pair& next = list.pairs()[active[k + near]];
     const auto* centres = reinterpret_cast<const char*>(next.centres.data());
-    for (std::size_t byte = 0; byte < next.centres.size() * sizeof(Vector); byte += line) __builtin_prefetch(centres + byte);
+    for (std::size_t byte = 0; byte < next.centres.size() * sizeof(Vector); byte += line)
+        __builtin_prefetch(centres + byte);
     __builtin_prefetch(next.candidates.data());
     const auto* contacts = reinterpret_cast<const char*>(next.contacts.data());
-    for (std::size_t byte = 0; byte < next.contacts.size() * sizeof(Contact); byte += line) __builtin_prefetch(contacts + byte);
+    for (std::size_t byte = 0; byte < next.contacts.size() * sizeof(Contact); byte += line)
+        __builtin_prefetch(contacts + byte);
 }
 
 template <class Law, class Friction>
@@ -124,22 +131,26 @@ class PairwiseContacts final : public ContactModel {
 
     void evaluate(const Blocks& blocks, const Surroundings& surroundings, PairList& list,
                   std::span<const std::uint32_t> active, double dt) const override {
-        constexpr std::size_t serial_below = 2000;  // pairs; waking threads costs as much as a few hundred of them
+        constexpr std::size_t serial_below =
+            2000;  // pairs; waking threads costs as much as a few hundred of them
         common::parallel_for(active.size(), serial_below, [&](std::size_t k) {
             fetch_ahead(list, active, k);
             evaluate_pair(blocks, surroundings, list, list.pairs()[active[k]], dt);
         });
     }
 
-    double elastic_energy(const Blocks& blocks, const Surroundings& surroundings, const PairList& list) const override {
+    double elastic_energy(const Blocks& blocks, const Surroundings& surroundings,
+                          const PairList& list) const override {
         double energy = 0;
         std::vector<Touch> touches;
         for (const auto& pair : list.pairs()) {
             touches.clear();
             find_touches(blocks, surroundings, list, pair, touches);
             const double radius = reduced_radius(blocks, surroundings, list, pair);
-            for (const auto& touch : touches) energy += law_.energy(law_.stiffness(radius, touch.overlap), touch.overlap);
-            for (const auto& contact : pair.contacts) energy += friction_.energy(contact.spring, contact.stiffness);
+            for (const auto& touch : touches)
+                energy += law_.energy(law_.stiffness(radius, touch.overlap), touch.overlap);
+            for (const auto& contact : pair.contacts)
+                energy += friction_.energy(contact.spring, contact.stiffness);
         }
         return energy;
     }
@@ -156,8 +167,8 @@ class PairwiseContacts final : public ContactModel {
         return 2 * damping_ratio_ * std::sqrt(mass / static_cast<double>(count));
     }
 
-    void evaluate_pair(const Blocks& blocks, const Surroundings& surroundings, const PairList& list, Pair& pair,
-                       double dt) const {
+    void evaluate_pair(const Blocks& blocks, const Surroundings& surroundings, const PairList& list,
+                       Pair& pair, double dt) const {
         thread_local std::vector<Touch> touches;
         thread_local std::vector<Contact> now;
         touches.clear();
@@ -170,7 +181,8 @@ class PairwiseContacts final : public ContactModel {
         const bool partner_is_block = list.is_block(pair.partner);
         const double radius = reduced_radius(blocks, surroundings, list, pair);
         const double damping = damping_scale(reduced_mass(blocks, list, pair), touches.size());
-        // Velocity of the block relative to the partner at `arm`: v_a - v_b + w_b x offset + (w_a - w_b) x arm.
+        // Velocity of the block relative to the partner at `arm`: v_a - v_b + w_b x offset + (w_a - w_b) x
+        // arm.
         const Vector offset = partner_from_block(blocks, surroundings, list, pair);
         Vector approach = blocks.velocity[pair.block], spin = blocks.angular_velocity[pair.block];
         if (partner_is_block) {
@@ -202,8 +214,9 @@ class PairwiseContacts final : public ContactModel {
             // No tension: the dashpot never pulls.
             const double normal_force = std::max(0.0, elastic + dashpot * closing_speed);
             const Vector slip_speed = relative - closing_speed * touch.normal;
-            const TangentialForce tangential = friction_.force(contact.spring, stiffness_before, stiffness, touch.normal,
-                                                               slip_speed, normal_force, dashpot, dt);
+            const TangentialForce tangential =
+                friction_.force(contact.spring, stiffness_before, stiffness, touch.normal, slip_speed,
+                                normal_force, dashpot, dt);
             const Vector springs = contact.spring - elastic * touch.normal;
             const Vector dashpots = tangential.dashpot - (normal_force - elastic) * touch.normal;
             elastic_force += springs;
@@ -239,8 +252,8 @@ std::unique_ptr<ContactModel> with_friction(const Law& law, const Material& mate
 
 }  // namespace
 
-std::unique_ptr<ContactModel> make_contact_model(ContactLaw law, const Material& material, double element_diameter,
-                                                 double reference_overlap) {
+std::unique_ptr<ContactModel> make_contact_model(ContactLaw law, const Material& material,
+                                                 double element_diameter, double reference_overlap) {
     if (law == ContactLaw::hertz) return with_friction(HertzLaw(material), material);
     return with_friction(LinearLaw(material, element_diameter, reference_overlap), material);
 }

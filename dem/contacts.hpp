@@ -1,8 +1,10 @@
-/// Contact forces between spheres: springs and dashpots from Hertz theory, Coulomb friction with history, no tension.
+/// Contact forces between spheres: springs and dashpots from Hertz theory, Coulomb friction with history, no
+/// tension.
 ///
-/// Dashpots: critical damping of the two blocks as bodies, c = 2 zeta sqrt(k m), m their reduced mass. Two flat faces touch in
-/// many sphere pairs at once; each dashpot is divided by the square root of the number n of touching spheres of that pair of
-/// bodies, so that n of them together damp the n springs together as asked (n c = 2 zeta sqrt(n k m)).
+/// Dashpots: critical damping of the two blocks as bodies, c = 2 zeta sqrt(k m), m their reduced mass. Two
+/// flat faces touch in many sphere pairs at once; each dashpot is divided by the square root of the number n
+/// of touching spheres of that pair of bodies, so that n of them together damp the n springs together as
+/// asked (n c = 2 zeta sqrt(n k m)).
 #pragma once
 
 #include <memory>
@@ -23,7 +25,8 @@ class ContactModel {
     virtual void evaluate(const Blocks& blocks, const Surroundings& surroundings, PairList& list,
                           std::span<const std::uint32_t> active, double dt) const = 0;
     /// Energy stored in normal and tangential springs at the present poses, J.
-    virtual double elastic_energy(const Blocks& blocks, const Surroundings& surroundings, const PairList& list) const = 0;
+    virtual double elastic_energy(const Blocks& blocks, const Surroundings& surroundings,
+                                  const PairList& list) const = 0;
     /// Tangential over normal stiffness; 0 without friction.
     virtual double tangential_ratio() const = 0;
     /// Normal dashpot of one of `count` contacts between two bodies of reduced mass `mass`, kg/s.
@@ -32,9 +35,9 @@ class ContactModel {
 
 enum class ContactLaw { hertz, linear };
 
-/// `reference_overlap` (m): where the linear law takes its stiffness from Hertz theory. Without friction (mu = 0)
-/// the tangential law is absent.
-std::unique_ptr<ContactModel> make_contact_model(ContactLaw law, const Material& material, double element_diameter,
-                                                 double reference_overlap);
+/// `reference_overlap` (m): where the linear law takes its stiffness from Hertz theory. Without friction (mu
+/// = 0) the tangential law is absent.
+std::unique_ptr<ContactModel> make_contact_model(ContactLaw law, const Material& material,
+                                                 double element_diameter, double reference_overlap);
 
 }  // namespace dem

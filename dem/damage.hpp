@@ -18,8 +18,8 @@ struct Displacement {
 /// Counts over the blocks that are free to move.
 struct Damage {
     static constexpr std::array<double, 3> levels{0.25, 0.5, 1.0};  ///< displacement over block length
-    std::array<std::size_t, 3> moved{};  ///< blocks beyond each level
-    double number = 0;                   ///< N_od = blocks moved beyond half a length / (width / block length)
+    std::array<std::size_t, 3> moved{};                             ///< blocks beyond each level
+    double number = 0;  ///< N_od = blocks moved beyond half a length / (width / block length)
     double mean_displacement = 0, mean_offshore = 0, largest_displacement = 0;  ///< m
 };
 

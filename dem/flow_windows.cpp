@@ -35,7 +35,8 @@ FlowGrid flow_grid_of(const common::Window& window, bool still_outside) {
     try {
         return FlowGrid(std::move(history), still_outside);
     } catch (const std::invalid_argument& error) {
-        throw common::InputError(fmt::format("window {} of {}: /flow/x, /flow/z: {}", window.index, window.stage, error.what()));
+        throw common::InputError(
+            fmt::format("window {} of {}: /flow/x, /flow/z: {}", window.index, window.stage, error.what()));
     }
 }
 
@@ -47,7 +48,8 @@ void require_cover(const FlowGrid& grid, const Blocks& blocks, const std::string
             if (grid.covers(centre.x(), centre.z())) continue;
             const auto& h = grid.history();
             throw common::InputError(fmt::format(
-                "{}: the flow grid (x {} to {} m, z {} to {} m) does not cover block {} at x = {:.3f}, z = {:.3f} m; enlarge cmps.flow or set "
+                "{}: the flow grid (x {} to {} m, z {} to {} m) does not cover block {} at x = {:.3f}, z = "
+                "{:.3f} m; enlarge cmps.flow or set "
                 "dem.flow_outside = \"still\"",
                 folder, h.x.front(), h.x.back(), h.z.front(), h.z.back(), i + 1, centre.x(), centre.z()));
         }

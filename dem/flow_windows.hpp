@@ -13,7 +13,8 @@ namespace dem {
 /// What this stage needs to find in a window of cmps.
 std::vector<common::ExpectedDataset> expected_flow();
 
-/// The flow grid of one window. Throws common::InputError naming the dataset (axes not uniform, too few samples).
+/// The flow grid of one window. Throws common::InputError naming the dataset (axes not uniform, too few
+/// samples).
 FlowGrid flow_grid_of(const common::Window& window, bool still_outside);
 
 /// Throws common::InputError unless the grid covers every sphere of every block that can move.

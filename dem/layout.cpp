@@ -7,7 +7,8 @@ namespace dem {
 
 namespace {
 
-/// Spheres on the side of a block that looks along `direction` (world), within half a sphere of the outermost one.
+/// Spheres on the side of a block that looks along `direction` (world), within half a sphere of the outermost
+/// one.
 std::vector<std::uint32_t> side_spheres(const Blocks& placed, std::uint32_t block, const Vector& direction) {
     const Shape& shape = placed.shape_of(block);
     std::vector<std::uint32_t> side;

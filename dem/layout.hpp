@@ -1,4 +1,5 @@
-/// Which spheres are joined by wires: single links between blocks, rows along the breakwater, columns across it.
+/// Which spheres are joined by wires: single links between blocks, rows along the breakwater, columns across
+/// it.
 #pragma once
 
 #include <array>

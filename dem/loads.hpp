@@ -1,4 +1,5 @@
-/// What acts on blocks besides weight and contacts: a list built once, one call each a step. An effect that is off is not in it.
+/// What acts on blocks besides weight and contacts: a list built once, one call each a step. An effect that
+/// is off is not in it.
 #pragma once
 
 #include <memory>
@@ -17,9 +18,10 @@ class Load {
     virtual ~Load() = default;
     /// Called now and then (at the flow interval): looks at the surroundings for the time from t to t + hold.
     virtual void sample(Blocks& blocks, double t, double hold) = 0;
-    /// Adds to blocks.force and blocks.torque; every step. `wanted`: the blocks whose sums are wanted, also as flags.
-    virtual void add(Blocks& blocks, const std::vector<std::uint32_t>& wanted, const std::vector<std::uint8_t>& is_wanted,
-                     double t) = 0;
+    /// Adds to blocks.force and blocks.torque; every step. `wanted`: the blocks whose sums are wanted, also
+    /// as flags.
+    virtual void add(Blocks& blocks, const std::vector<std::uint32_t>& wanted,
+                     const std::vector<std::uint8_t>& is_wanted, double t) = 0;
     /// After the step: adds up the work done on the blocks.
     virtual void account(const Blocks& blocks, const std::vector<std::uint32_t>& movable, double dt) = 0;
     /// Who is awake has changed.
@@ -32,15 +34,16 @@ class FluidLoads final : public Load {
     FluidLoads(const Blocks& blocks, FluidProperties properties, std::variant<UniformWater, FlowGrid> motion);
 
     void sample(Blocks& blocks, double t, double hold) override;
-    void add(Blocks& blocks, const std::vector<std::uint32_t>& wanted, const std::vector<std::uint8_t>& is_wanted,
-             double t) override;
+    void add(Blocks& blocks, const std::vector<std::uint32_t>& wanted,
+             const std::vector<std::uint8_t>& is_wanted, double t) override;
     void account(const Blocks& blocks, const std::vector<std::uint32_t>& movable, double dt) override;
     void awake_changed(const std::vector<std::uint8_t>&) override {}
 
     std::variant<UniformWater, FlowGrid> motion;
     double work = 0;        ///< done by the water on blocks, buoyancy and added mass included, J
     double gross_work = 0;  ///< the same in absolute value, J
-    double waves_reach_blocks = -1;  ///< first time the water at some block is faster than 0.1 m/s, s; -1: not yet
+    double waves_reach_blocks =
+        -1;  ///< first time the water at some block is faster than 0.1 m/s, s; -1: not yet
 
  private:
     FluidProperties properties_;
@@ -53,8 +56,8 @@ class WireLoads final : public Load {
  public:
     explicit WireLoads(Wires& wires) : wires_(wires) {}
     void sample(Blocks&, double, double) override {}
-    void add(Blocks& blocks, const std::vector<std::uint32_t>& wanted, const std::vector<std::uint8_t>& is_wanted,
-             double t) override;
+    void add(Blocks& blocks, const std::vector<std::uint32_t>& wanted,
+             const std::vector<std::uint8_t>& is_wanted, double t) override;
     void account(const Blocks&, const std::vector<std::uint32_t>&, double) override {}
     void awake_changed(const std::vector<std::uint8_t>& is_awake) override;
 

@@ -13,12 +13,13 @@ int main(int argc, char** argv) {
         using Verb = common::StageCommand::Verb;
         gsl_set_error_handler_off();
         common::watch_for_interrupts();
-        const auto command = common::read_stage_command(argc, argv,
-                                                        {.program = "dem",
-                                                         .description = "armour blocks and wires (3D distinct elements)",
-                                                         .upstream_option = "--flow",
-                                                         .has_layouts = true,
-                                                         .has_pack = true});
+        const auto command =
+            common::read_stage_command(argc, argv,
+                                       {.program = "dem",
+                                        .description = "armour blocks and wires (3D distinct elements)",
+                                        .upstream_option = "--flow",
+                                        .has_layouts = true,
+                                        .has_pack = true});
         common::use_threads(command.threads);
         const auto file = common::SceneFile::read(command.scene, command.overrides);
         std::optional<common::SceneFile> layout;

@@ -11,8 +11,9 @@ struct Turn {
     double w, v[3];
 };
 
-/// Turn about one body axis: the body-frame momentum goes round by the angle it makes, the orientation follows.
-/// tan(angle/2) is replaced by half the angle: still an exact rotation, and still second order as a splitting.
+/// Turn about one body axis: the body-frame momentum goes round by the angle it makes, the orientation
+/// follows. tan(angle/2) is replaced by half the angle: still an exact rotation, and still second order as a
+/// splitting.
 template <int axis>
 inline void turn_about(Turn& turn, double (&momentum)[3], double inverse_inertia, double step) {
     constexpr int next = (axis + 1) % 3, last = (axis + 2) % 3;
@@ -42,20 +43,23 @@ void turn_freely(Quaternion& orientation, const Rotation& rotation, const Vector
                q.y() + half.y() * q.w() + half.z() * q.x() - half.x() * q.z(),
                q.z() + half.z() * q.w() + half.x() * q.y() - half.y() * q.x()}};
     // The rest of the energy: (1/I_k - 1/I_1) l_k^2 / 2 for the other two axes.
-    const double second = inverse_inertia[1] - inverse_inertia[0], third = inverse_inertia[2] - inverse_inertia[0];
+    const double second = inverse_inertia[1] - inverse_inertia[0],
+                 third = inverse_inertia[2] - inverse_inertia[0];
     const Vector in_body = rotation.transpose() * angular_momentum;
     double momentum[3] = {in_body.x(), in_body.y(), in_body.z()};
     if (second != 0) turn_about<1>(turn, momentum, second, 0.5 * step);
     if (third != 0) turn_about<2>(turn, momentum, third, step);
     if (second != 0) turn_about<1>(turn, momentum, second, 0.5 * step);
-    const double scale = 1 / std::sqrt(turn.w * turn.w + turn.v[0] * turn.v[0] + turn.v[1] * turn.v[1] + turn.v[2] * turn.v[2]);
+    const double scale = 1 / std::sqrt(turn.w * turn.w + turn.v[0] * turn.v[0] + turn.v[1] * turn.v[1] +
+                                       turn.v[2] * turn.v[2]);
     orientation = Quaternion(scale * turn.w, scale * turn.v[0], scale * turn.v[1], scale * turn.v[2]);
 }
 
 void drift(Blocks& blocks, std::size_t block, double step) {
     blocks.position[block] += step * blocks.velocity[block];
     const Vector inverse_inertia = blocks.shape_of(block).inverse_inertia / blocks.mass_ratio[block];
-    turn_freely(blocks.orientation[block], blocks.rotation[block], blocks.angular_momentum[block], inverse_inertia, step);
+    turn_freely(blocks.orientation[block], blocks.rotation[block], blocks.angular_momentum[block],
+                inverse_inertia, step);
     blocks.rotation[block] = blocks.orientation[block].toRotationMatrix();
     const Rotation& turn = blocks.rotation[block];
     blocks.angular_velocity[block] =

@@ -29,8 +29,10 @@ std::vector<Vector> build_mound(const MoundDescription& description) {
     const auto count_x = static_cast<std::int64_t>((x_end - x_begin) / d + 1e-6);
     const auto count_y = static_cast<std::int64_t>((description.y_end - description.y_begin) / d + 1e-6);
     const double pitch_x = (x_end - x_begin) / static_cast<double>(std::max<std::int64_t>(count_x, 1));
-    const double pitch_y = (description.y_end - description.y_begin) / static_cast<double>(std::max<std::int64_t>(count_y, 1));
-    const std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> random(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free);
+    const double pitch_y =
+        (description.y_end - description.y_begin) / static_cast<double>(std::max<std::int64_t>(count_y, 1));
+    const std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> random(gsl_rng_alloc(gsl_rng_mt19937),
+                                                                   gsl_rng_free);
     gsl_rng_set(random.get(), description.seed);
 
     std::vector<double> top(static_cast<std::size_t>(count_x * count_y));
@@ -48,7 +50,8 @@ std::vector<Vector> build_mound(const MoundDescription& description) {
             const double height = top[static_cast<std::size_t>(i * count_y + j)];
             double lowest = height - description.least_depth;
             for (std::int64_t k = std::max<std::int64_t>(i - 1, 0); k <= std::min(i + 1, count_x - 1); ++k)
-                for (std::int64_t l = std::max<std::int64_t>(j - 1, 0); l <= std::min(j + 1, count_y - 1); ++l)
+                for (std::int64_t l = std::max<std::int64_t>(j - 1, 0); l <= std::min(j + 1, count_y - 1);
+                     ++l)
                     lowest = std::min(lowest, top[static_cast<std::size_t>(k * count_y + l)]);
             const double x = x_begin + (static_cast<double>(i) + 0.5) * pitch_x;
             const double y = description.y_begin + (static_cast<double>(j) + 0.5) * pitch_y;

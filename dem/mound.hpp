@@ -12,14 +12,14 @@ namespace dem {
 struct MoundDescription {
     std::vector<std::array<double, 2>> profile;  ///< mean surface [x, z], m, x increasing
     double y_begin = 0, y_end = 1;               ///< m
-    double roughness = 0;                        ///< standard deviation of a column's height, m (paper: H_B / 3)
+    double roughness = 0;  ///< standard deviation of a column's height, m (paper: H_B / 3)
     std::uint64_t seed = 1;
-    double diameter = 0.008;                     ///< of the spheres, and their pitch, m
-    double least_depth = 0;                      ///< columns reach at least this far down, m
+    double diameter = 0.008;  ///< of the spheres, and their pitch, m
+    double least_depth = 0;   ///< columns reach at least this far down, m
 };
 
-/// Sphere centres, column by column. The top of a column's highest sphere is its height. Columns are filled downwards
-/// to the top of their lowest neighbour, so that no hole between two spheres lets another through.
+/// Sphere centres, column by column. The top of a column's highest sphere is its height. Columns are filled
+/// downwards to the top of their lowest neighbour, so that no hole between two spheres lets another through.
 std::vector<Vector> build_mound(const MoundDescription& description);
 
 }  // namespace dem

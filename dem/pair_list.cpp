@@ -9,11 +9,14 @@ namespace dem {
 
 namespace {
 
-auto order_of(const Pair& pair) { return std::tuple(pair.block, pair.partner, pair.image); }
+auto order_of(const Pair& pair) {
+    return std::tuple(pair.block, pair.partner, pair.image);
+}
 
-/// Spheres of `shape` (exposed ones) that, seen from the partner's body frame, come within `reach` of its box.
-void spheres_near_box(const Shape& shape, const Rotation& to_partner, const Vector& offset, const Shape& partner,
-                      double reach, std::vector<std::uint32_t>& found) {
+/// Spheres of `shape` (exposed ones) that, seen from the partner's body frame, come within `reach` of its
+/// box.
+void spheres_near_box(const Shape& shape, const Rotation& to_partner, const Vector& offset,
+                      const Shape& partner, double reach, std::vector<std::uint32_t>& found) {
     found.clear();
     const Vector low = partner.low.array() - reach, high = partner.high.array() + reach;
     for (const int sphere : shape.exposed) {
@@ -52,8 +55,9 @@ bool PairList::refresh(std::size_t index) {
 }
 
 bool PairList::update() {
-    // A candidate pair is found when one of its blocks is refreshed; the other may then be a third of the skin away from
-    // its own reference and go another third on the far side of it: together never more than the skin.
+    // A candidate pair is found when one of its blocks is refreshed; the other may then be a third of the
+    // skin away from its own reference and go another third on the far side of it: together never more than
+    // the skin.
     if (stale_.empty()) return false;
     bool changed = false;
     for (const auto block : stale_)
@@ -73,9 +77,12 @@ void PairList::find_pairs() {
     for (std::size_t i = 0; i < count; ++i) largest = std::max(largest, blocks_.shape_of(i).radius);
     const double cell = 2 * largest + wide_skin_;
     const double period = surroundings_.period;
-    const std::int64_t cells_in_period = period > 0 ? std::max<std::int64_t>(1, static_cast<std::int64_t>(period / cell)) : 0;
+    const std::int64_t cells_in_period =
+        period > 0 ? std::max<std::int64_t>(1, static_cast<std::int64_t>(period / cell)) : 0;
     const double cell_y = period > 0 ? period / static_cast<double>(cells_in_period) : cell;
-    const auto index_of = [](double value, double size) { return static_cast<std::int64_t>(std::floor(value / size)); };
+    const auto index_of = [](double value, double size) {
+        return static_cast<std::int64_t>(std::floor(value / size));
+    };
     const auto wrap = [&](std::int64_t j) {
         return period > 0 ? ((j % cells_in_period) + cells_in_period) % cells_in_period : j;
     };
@@ -88,7 +95,8 @@ void PairList::find_pairs() {
     cells.reserve(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         const Vector& p = blocks_.position[i];
-        cells[key_of(index_of(p.x(), cell), wrap(index_of(p.y(), cell_y)), index_of(p.z(), cell))].push_back(i);
+        cells[key_of(index_of(p.x(), cell), wrap(index_of(p.y(), cell_y)), index_of(p.z(), cell))].push_back(
+            i);
     }
 
     std::vector<Pair> found;
@@ -99,11 +107,13 @@ void PairList::find_pairs() {
         pair.image = image;
         found.push_back(std::move(pair));
     };
-    const std::int64_t reach_y = period > 0 && cells_in_period < 3 ? (cells_in_period - 1) / 2 + (cells_in_period == 2) : 1;
+    const std::int64_t reach_y =
+        period > 0 && cells_in_period < 3 ? (cells_in_period - 1) / 2 + (cells_in_period == 2) : 1;
     for (std::uint32_t i = 0; i < count; ++i) {
         const Vector& p = blocks_.position[i];
         const double radius = blocks_.shape_of(i).radius;
-        const std::int64_t cx = index_of(p.x(), cell), cy = index_of(p.y(), cell_y), cz = index_of(p.z(), cell);
+        const std::int64_t cx = index_of(p.x(), cell), cy = index_of(p.y(), cell_y),
+                           cz = index_of(p.z(), cell);
         for (std::int64_t x = cx - 1; x <= cx + 1; ++x)
             for (std::int64_t y = cy - reach_y; y <= cy + reach_y; ++y) {
                 if (period > 0 && cells_in_period == 2 && y == cy - 1) continue;  // the same cell as cy + 1
@@ -132,7 +142,8 @@ void PairList::find_pairs() {
                 add(i, static_cast<std::uint32_t>(count) + 1 + k, 0);
         }
     }
-    std::sort(found.begin(), found.end(), [](const Pair& a, const Pair& b) { return order_of(a) < order_of(b); });
+    std::sort(found.begin(), found.end(),
+              [](const Pair& a, const Pair& b) { return order_of(a) < order_of(b); });
 
     // What old pairs hold goes over to the new ones; both lists are in order.
     auto old = pairs_.begin();
@@ -191,7 +202,8 @@ void PairList::find_candidates(Pair& pair) {
             }
         } else {
             const Plane& wall = plane(pair.partner);
-            if ((centre - wall.point).dot(wall.normal) < 0.5 * shape.diameter + skin_) pair.candidates.push_back({sphere, 0});
+            if ((centre - wall.point).dot(wall.normal) < 0.5 * shape.diameter + skin_)
+                pair.candidates.push_back({sphere, 0});
         }
     }
 }

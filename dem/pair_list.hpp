@@ -1,11 +1,12 @@
 /// Who can touch whom: pairs of blocks first, then pairs of their spheres.
 ///
-/// Two lists with a skin each. Pairs of bodies follow from the blocks' bounding spheres and are found again, all at once,
-/// when some block has moved half of the wide skin. Sphere pairs (candidates) of one block are found again when that block
-/// has moved a third of the narrow skin; so a tumbling block costs nothing to those at rest.
+/// Two lists with a skin each. Pairs of bodies follow from the blocks' bounding spheres and are found again,
+/// all at once, when some block has moved half of the wide skin. Sphere pairs (candidates) of one block are
+/// found again when that block has moved a third of the narrow skin; so a tumbling block costs nothing to
+/// those at rest.
 ///
-/// Results do not depend on the lists: pairs and candidates stand in a fixed order (block, partner, sphere, sphere), and
-/// only those that touch contribute.
+/// Results do not depend on the lists: pairs and candidates stand in a fixed order (block, partner, sphere,
+/// sphere), and only those that touch contribute.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +19,9 @@ namespace dem {
 
 /// Two spheres that touch, with what the contact remembers.
 struct Contact {
-    std::uint32_t a, b;      ///< sphere of the block, sphere of the partner
-    double stiffness;        ///< normal, N/m, at the last step
-    Vector spring;           ///< tangential spring force on the block, N, world axes
+    std::uint32_t a, b;  ///< sphere of the block, sphere of the partner
+    double stiffness;    ///< normal, N/m, at the last step
+    Vector spring;       ///< tangential spring force on the block, N, world axes
 };
 
 /// Sphere `a` of the block and sphere `b` of the partner (0 for a plane).
@@ -28,22 +29,24 @@ struct Candidate {
     std::uint32_t a, b;
 };
 
-/// A block and a partner: a later block, the fixed spheres (number blocks.size()), or a plane (the numbers after it).
+/// A block and a partner: a later block, the fixed spheres (number blocks.size()), or a plane (the numbers
+/// after it).
 struct Pair {
     std::uint32_t block, partner;
     std::int32_t image;  ///< the partner stands this many widths of the periodic box further in y
     std::vector<Candidate> candidates;
-    std::vector<Vector> centres;  ///< of the fixed spheres among the candidates, m: one piece of memory instead of many
+    std::vector<Vector>
+        centres;  ///< of the fixed spheres among the candidates, m: one piece of memory instead of many
     std::vector<Contact> contacts;
     // Results of the last force pass.
-    Vector force{0, 0, 0};             ///< on the block, N; the partner feels the opposite
-    Vector torque_on_block{0, 0, 0};   ///< N m, about the block's centre
-    Vector offset{0, 0, 0};            ///< from the block's centre to the partner's, m: the torque on the partner
-                                       ///< is offset x force - torque_on_block
-    Vector damping_force{0, 0, 0};     ///< the dashpots' part of the force, N
-    Vector damping_torque{0, 0, 0};    ///< and of the torque on the block, N m
-    double dissipated = 0;             ///< by sliding springs in that step, J
-    double largest_overlap = 0;        ///< m
+    Vector force{0, 0, 0};            ///< on the block, N; the partner feels the opposite
+    Vector torque_on_block{0, 0, 0};  ///< N m, about the block's centre
+    Vector offset{0, 0, 0};  ///< from the block's centre to the partner's, m: the torque on the partner
+                             ///< is offset x force - torque_on_block
+    Vector damping_force{0, 0, 0};   ///< the dashpots' part of the force, N
+    Vector damping_torque{0, 0, 0};  ///< and of the torque on the block, N m
+    double dissipated = 0;           ///< by sliding springs in that step, J
+    double largest_overlap = 0;      ///< m
 };
 
 /// The bodies that pairs are made of.
@@ -87,7 +90,9 @@ class PairList {
     }
     bool is_block(std::uint32_t partner) const { return partner < blocks_.size(); }
     bool is_fixed_spheres(std::uint32_t partner) const { return partner == blocks_.size(); }
-    const Plane& plane(std::uint32_t partner) const { return surroundings_.planes[partner - blocks_.size() - 1]; }
+    const Plane& plane(std::uint32_t partner) const {
+        return surroundings_.planes[partner - blocks_.size() - 1];
+    }
     /// Puts back the contacts of a saved run; every pair they name must be listed (it is: they touch).
     void restore(const std::vector<Pair>& saved);
     /// Everything is found again from the present poses.
@@ -103,7 +108,8 @@ class PairList {
     double moved_since(std::size_t block, const std::vector<Vector>& position,
                        const std::vector<Quaternion>& orientation) const {
         const double turned = (orientation[block].conjugate() * blocks_.orientation[block]).vec().norm();
-        return (blocks_.position[block] - position[block]).norm() + 2 * blocks_.shape_of(block).radius * turned;
+        return (blocks_.position[block] - position[block]).norm() +
+               2 * blocks_.shape_of(block).radius * turned;
     }
 
     const Blocks& blocks_;

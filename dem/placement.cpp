@@ -7,7 +7,8 @@
 
 namespace dem {
 
-double height_above(const FixedSpheres& mound, const Shape& shape, const Quaternion& orientation, double x, double y) {
+double height_above(const FixedSpheres& mound, const Shape& shape, const Quaternion& orientation, double x,
+                    double y) {
     const double reach = 0.5 * (shape.diameter + mound.diameter());
     const Rotation turn = orientation.toRotationMatrix();
     double height = -1e300;
@@ -41,17 +42,20 @@ void place_blocks(Blocks& blocks, const ArmourPlan& plan, const FixedSpheres& mo
             }
     for (std::size_t row = 1; row <= plan.fixed_rows; ++row)
         for (std::size_t column = 0; column < plan.columns; ++column)
-            blocks.add(plan.shape,
-                       Vector(plan.origin_x + static_cast<double>(row) * plan.pitch_across,
-                              plan.origin_y + static_cast<double>(column) * plan.pitch_along, mean_level - 2 * gap),
-                       upright, true);
+            blocks.add(
+                plan.shape,
+                Vector(plan.origin_x + static_cast<double>(row) * plan.pitch_across,
+                       plan.origin_y + static_cast<double>(column) * plan.pitch_along, mean_level - 2 * gap),
+                upright, true);
 }
 
 namespace {
 
-/// Calls `visit` for every overlap of the listed pairs that concerns `only` (all blocks where it is the block count).
+/// Calls `visit` for every overlap of the listed pairs that concerns `only` (all blocks where it is the block
+/// count).
 template <class Visit>
-void for_overlaps(const Blocks& blocks, const Surroundings& surroundings, std::size_t only, const Visit& visit) {
+void for_overlaps(const Blocks& blocks, const Surroundings& surroundings, std::size_t only,
+                  const Visit& visit) {
     const PairList list(blocks, surroundings, 0.02 * (blocks.size() > 0 ? blocks.shape_of(0).diameter : 1.0));
     for (const auto& pair : list.pairs()) {
         if (only < blocks.size() && pair.block != only && pair.partner != only) continue;
@@ -73,7 +77,10 @@ void for_overlaps(const Blocks& blocks, const Surroundings& surroundings, std::s
                 const Plane& plane = list.plane(pair.partner);
                 depth = radius - (centre + shift - plane.point).dot(plane.normal);
             }
-            if (depth > 0) visit(pair, depth, list.is_block(pair.partner) ? fmt::format("block {}", pair.partner + 1) : std::string(kind));
+            if (depth > 0)
+                visit(pair, depth,
+                      list.is_block(pair.partner) ? fmt::format("block {}", pair.partner + 1)
+                                                  : std::string(kind));
         }
     }
 }

@@ -15,17 +15,19 @@ namespace dem {
 struct ArmourPlan {
     int shape;
     std::size_t rows, columns, layers, fixed_rows;
-    double origin_x, origin_y;        ///< of block 1, m
-    double pitch_across, pitch_along; ///< m
-    std::optional<double> level;      ///< of all centres, m; else each block just above the mound
+    double origin_x, origin_y;         ///< of block 1, m
+    double pitch_across, pitch_along;  ///< m
+    std::optional<double> level;       ///< of all centres, m; else each block just above the mound
 };
 
-/// Appends the blocks of `plan`: layer by layer, row by row, column by column; the fixed rows come last and stand on the mean
-/// level of the row beside them.
+/// Appends the blocks of `plan`: layer by layer, row by row, column by column; the fixed rows come last and
+/// stand on the mean level of the row beside them.
 void place_blocks(Blocks& blocks, const ArmourPlan& plan, const FixedSpheres& mound);
 
-/// Lowest height of a block's centre at x, y where none of its spheres touches the mound; its orientation is upright.
-double height_above(const FixedSpheres& mound, const Shape& shape, const Quaternion& orientation, double x, double y);
+/// Lowest height of a block's centre at x, y where none of its spheres touches the mound; its orientation is
+/// upright.
+double height_above(const FixedSpheres& mound, const Shape& shape, const Quaternion& orientation, double x,
+                    double y);
 
 /// The deepest overlap of blocks with each other or with what is fixed.
 struct Clash {
@@ -34,7 +36,8 @@ struct Clash {
     std::string partner;
 };
 /// `only`: pairs of this block alone; every pair where it is no block.
-Clash deepest_overlap(const Blocks& blocks, const Surroundings& surroundings, std::size_t only = ~std::size_t{0});
+Clash deepest_overlap(const Blocks& blocks, const Surroundings& surroundings,
+                      std::size_t only = ~std::size_t{0});
 
 /// Adds copies of spheres near the ends of a periodic box in y (0 .. period), within `reach` of it.
 std::vector<Vector> with_images(const std::vector<Vector>& centres, double period, double reach);

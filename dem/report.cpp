@@ -8,8 +8,8 @@
 
 namespace dem {
 
-Report::Report(const std::filesystem::path& folder, const common::SceneFile& file, const Scene& scene, const std::string& scene_digest,
-               const std::string& input_digest)
+Report::Report(const std::filesystem::path& folder, const common::SceneFile& file, const Scene& scene,
+               const std::string& scene_digest, const std::string& input_digest)
     : record_(folder, "dem"), scene_(scene), smallest_limit_(std::numeric_limits<double>::infinity()) {
     record_.describe_scene(file);
     record_.set_digests(scene_digest, input_digest);
@@ -35,7 +35,9 @@ double closure_error(const EnergyBudget& energy, double first_balance, double fi
     return exchanged > 0 ? (energy.balance() - first_balance) / exchanged : 0;
 }
 
-void Report::look(const Simulation& simulation) { smallest_limit_ = std::min(smallest_limit_, simulation.stable_time_step()); }
+void Report::look(const Simulation& simulation) {
+    smallest_limit_ = std::min(smallest_limit_, simulation.stable_time_step());
+}
 
 void Report::window_done(const Simulation& simulation, const PackedPoses& packed, std::int64_t windows) {
     const EnergyBudget energy = simulation.energy();
@@ -44,12 +46,15 @@ void Report::window_done(const Simulation& simulation, const PackedPoses& packed
     const double d = scene_.element.diameter;
     record_.set_windows(windows);
     record_.set_invariant({"energy_closure", closure_error(energy, first_balance_, first_size_), "-", 0.1});
-    record_.set_invariant({"largest_overlap", simulation.largest_overlap() / d, "d", scene_.step.overlap_limit / d});
+    record_.set_invariant(
+        {"largest_overlap", simulation.largest_overlap() / d, "d", scene_.step.overlap_limit / d});
     record_.set_figure("deep_contact_steps", static_cast<double>(simulation.deep_contact_steps()));
     record_.set_figure("time_step_limit", smallest_limit_);
     record_.set_figure("steps", static_cast<double>(simulation.steps()));
     if (simulation.awake_block_steps() > 0)
-        record_.set_figure("nanoseconds_per_awake_block_step", 1e9 * stepping_seconds_ / static_cast<double>(simulation.awake_block_steps() - first_block_steps_));
+        record_.set_figure("nanoseconds_per_awake_block_step",
+                           1e9 * stepping_seconds_ /
+                               static_cast<double>(simulation.awake_block_steps() - first_block_steps_));
     record_.set_figure("awake_block_steps", static_cast<double>(simulation.awake_block_steps()));
     record_.set_figure("blocks_asleep", static_cast<double>(simulation.asleep_count()));
     record_.set_figure("energy.kinetic", energy.kinetic);
@@ -73,7 +78,9 @@ void Report::window_done(const Simulation& simulation, const PackedPoses& packed
     record_.set_figure("wires.count", static_cast<double>(wires.size()));
     record_.set_figure("wires.broken", static_cast<double>(wires.size() - wires.intact_count()));
     record_.set_figure("wires.largest_tension",
-                       wires.size() > 0 ? *std::max_element(wires.largest_tension.begin(), wires.largest_tension.end()) : 0.0);
+                       wires.size() > 0
+                           ? *std::max_element(wires.largest_tension.begin(), wires.largest_tension.end())
+                           : 0.0);
     record_.write_running();
 }
 
@@ -90,6 +97,8 @@ void Report::restore(const common::DataFile& state) {
     first_block_steps_ = static_cast<std::uint64_t>(state.integer("awake_block_steps"));
 }
 
-void Report::end(const std::string& status, const std::string& message) { record_.write_ended(status, message); }
+void Report::end(const std::string& status, const std::string& message) {
+    record_.write_ended(status, message);
+}
 
 }  // namespace dem

@@ -11,8 +11,8 @@ namespace dem {
 
 class Report {
  public:
-    Report(const std::filesystem::path& folder, const common::SceneFile& file, const Scene& scene, const std::string& scene_digest,
-           const std::string& input_digest);
+    Report(const std::filesystem::path& folder, const common::SceneFile& file, const Scene& scene,
+           const std::string& scene_digest, const std::string& input_digest);
     /// The energies that later balances are held against.
     void set_first_energy(const EnergyBudget& energy);
     /// Looks at the stability limit of the present contacts (at every sample).

@@ -35,20 +35,26 @@ class FlowSource {
     void start_at(double t) {
         start_ = t;
         if (!has_flow()) {
-            if (t >= scene_.time.end) throw common::InputError(fmt::format("the run would start at t = {} s, after time.end = {} s", t, scene_.time.end));
+            if (t >= scene_.time.end)
+                throw common::InputError(fmt::format("the run would start at t = {} s, after time.end = {} s",
+                                                     t, scene_.time.end));
             clock_.emplace(t, scene_.time.end, scene_.time.window);
             return;
         }
         if (!follow_ && reader_->available_until() < scene_.time.end - tolerance)
-            throw common::InputError(fmt::format("{}: the flow ends at t = {} s, before time.end = {} s", folder_.string(),
-                                                 reader_->available_until(), scene_.time.end));
+            throw common::InputError(fmt::format("{}: the flow ends at t = {} s, before time.end = {} s",
+                                                 folder_.string(), reader_->available_until(),
+                                                 scene_.time.end));
         const auto index = reader_->index_at(t);
-        if (!index) throw common::InputError(fmt::format("{}: the flow does not hold t = {} s, where the run starts", folder_.string(), t));
+        if (!index)
+            throw common::InputError(fmt::format("{}: the flow does not hold t = {} s, where the run starts",
+                                                 folder_.string(), t));
         first_ = *index;
     }
     /// Throws InputError unless the flow covers the blocks.
     void require_cover(const Blocks& blocks) {
-        if (has_flow() && !scene_.still_outside) dem::require_cover(flow_grid_of(reader_->first(), false), blocks, folder_.string());
+        if (has_flow() && !scene_.still_outside)
+            dem::require_cover(flow_grid_of(reader_->first(), false), blocks, folder_.string());
     }
 
     struct Span {
@@ -63,7 +69,8 @@ class FlowSource {
         }
         const auto window = reader_->receive(first_ + index);
         if (!window) return {};
-        const double begin = index == 0 ? start_ : window->t_begin, end = std::min(window->t_end, scene_.time.end);
+        const double begin = index == 0 ? start_ : window->t_begin,
+                     end = std::min(window->t_end, scene_.time.end);
         if (end <= begin + tolerance) return {};
         return Span{begin, end, flow_grid_of(*window, scene_.still_outside)};
     }
@@ -90,7 +97,8 @@ Start packed_start(const Scene& scene, common::Progress& progress) {
     Start start{.simulation = build_simulation(scene, true), .packed = {}, .t = {}};
     if (scene.packing.settle) {
         const auto packing = build_simulation(scene, true);
-        if (packing->water() != nullptr) packing->water()->motion = UniformWater{.element_diameter = scene.element.diameter};
+        if (packing->water() != nullptr)
+            packing->water()->motion = UniformWater{.element_diameter = scene.element.diameter};
         settle(*packing, scene.packing, [&](double t) { progress.update(t, "packing"); });
         take_over(*start.simulation, poses_of(packing->blocks), packing->memory().pairs);
     }
@@ -119,19 +127,23 @@ std::string input_digest_of(const common::StageCommand& command, FlowSource& flo
     return digest;
 }
 
-std::string scene_digest_of(const common::SceneFile& file, const common::SceneFile* layout, const Scene& scene, const std::string& input) {
-    return file.digest((layout != nullptr ? layout->digest() : std::string()) + placement_digest(scene.placed, scene.surroundings) + input);
+std::string scene_digest_of(const common::SceneFile& file, const common::SceneFile* layout,
+                            const Scene& scene, const std::string& input) {
+    return file.digest((layout != nullptr ? layout->digest() : std::string()) +
+                       placement_digest(scene.placed, scene.surroundings) + input);
 }
 
-common::DataFile state_of(const Simulation& simulation, const PackedPoses& packed, const Scene& scene, const Report& report) {
-    auto state = to_data_file(take_snapshot(simulation, packed, placement_digest(scene.placed, scene.surroundings)));
+common::DataFile state_of(const Simulation& simulation, const PackedPoses& packed, const Scene& scene,
+                          const Report& report) {
+    auto state =
+        to_data_file(take_snapshot(simulation, packed, placement_digest(scene.placed, scene.surroundings)));
     report.store(state);
     return state;
 }
 
 /// Advances over one window, a sample at every output time.
-common::Window advance(Simulation& simulation, const PackedPoses& packed, const Scene& scene, double begin, double end,
-                       std::int64_t index, common::Progress& progress, Report& report) {
+common::Window advance(Simulation& simulation, const PackedPoses& packed, const Scene& scene, double begin,
+                       double end, std::int64_t index, common::Progress& progress, Report& report) {
     WindowOutput output;
     const auto samples = common::WindowClock(begin, end, end - begin).samples_in(0, scene.output_interval);
     output.record(simulation, packed);
@@ -144,7 +156,8 @@ common::Window advance(Simulation& simulation, const PackedPoses& packed, const 
         common::PhaseTimer timer(recording);
         output.record(simulation, packed);
         report.look(simulation);
-        progress.update(simulation.time(), fmt::format("{} of {} blocks asleep", simulation.asleep_count(), simulation.blocks.size()));
+        progress.update(simulation.time(), fmt::format("{} of {} blocks asleep", simulation.asleep_count(),
+                                                       simulation.blocks.size()));
     }
     report.add_time("steps", stepping);
     report.add_time("output", recording);
@@ -155,13 +168,15 @@ common::Window advance(Simulation& simulation, const PackedPoses& packed, const 
 
 void pack(const common::StageCommand& command, const common::SceneFile& file, const Scene& scene) {
     const std::string digest = scene_digest_of(file, nullptr, scene, "packing");
-    common::OutputFolder folder(command.out, {.stage = "dem", .scene_digest = digest, .input_digest = ""}, command.resume);
+    common::OutputFolder folder(command.out, {.stage = "dem", .scene_digest = digest, .input_digest = ""},
+                                command.resume);
     if (folder.start() == common::OutputFolder::Start::nothing_to_do) return;
     common::Progress progress("dem pack", 0, scene.packing.longest, command.quiet);
     Report report(command.out, file, scene, digest, "");
     try {
         const auto simulation = build_simulation(scene, true);
-        if (simulation->water() != nullptr) simulation->water()->motion = UniformWater{.element_diameter = scene.element.diameter};
+        if (simulation->water() != nullptr)
+            simulation->water()->motion = UniformWater{.element_diameter = scene.element.diameter};
         WindowOutput output;
         const PackedPoses placed = poses_of(simulation->blocks);
         simulation->start(0);
@@ -172,22 +187,26 @@ void pack(const common::StageCommand& command, const common::SceneFile& file, co
             progress.update(t, "packing");
         });
         const PackedPoses packed = poses_of(simulation->blocks);
-        folder.write_geometry(geometry_of(*simulation, packed, placement_digest(scene.placed, scene.surroundings)));
-        Snapshot snapshot = take_snapshot(*simulation, packed, placement_digest(scene.placed, scene.surroundings));
+        folder.write_geometry(
+            geometry_of(*simulation, packed, placement_digest(scene.placed, scene.surroundings)));
+        Snapshot snapshot =
+            take_snapshot(*simulation, packed, placement_digest(scene.placed, scene.surroundings));
         snapshot.is_packing = true;
         report.look(*simulation);
         report.look(*simulation);
         folder.publish(output.take(0), to_data_file(snapshot));
         report.window_done(*simulation, placed, 1);
     } catch (const std::exception& error) {
-        report.end(dynamic_cast<const common::Interrupted*>(&error) != nullptr ? "interrupted" : "failed", error.what());
+        report.end(dynamic_cast<const common::Interrupted*>(&error) != nullptr ? "interrupted" : "failed",
+                   error.what());
         throw;
     }
     report.end("done");
     progress.finish("packed");
 }
 
-void run(const common::StageCommand& command, const common::SceneFile& file, const common::SceneFile* layout, const Scene& scene) {
+void run(const common::StageCommand& command, const common::SceneFile& file, const common::SceneFile* layout,
+         const Scene& scene) {
     FlowSource flow(command, scene);
     const std::string input = input_digest_of(command, flow);
     const std::string digest = scene_digest_of(file, layout, scene, input);
@@ -198,7 +217,8 @@ void run(const common::StageCommand& command, const common::SceneFile& file, con
     flow.start_at(begin);
     flow.require_cover(earlier ? earlier->simulation->blocks : scene.placed);
 
-    common::OutputFolder folder(command.out, {.stage = "dem", .scene_digest = digest, .input_digest = input}, command.resume);
+    common::OutputFolder folder(command.out, {.stage = "dem", .scene_digest = digest, .input_digest = input},
+                                command.resume);
     if (folder.start() == common::OutputFolder::Start::nothing_to_do) return;
     common::Progress progress("dem", begin, scene.time.end, command.quiet);
     Report report(command.out, file, scene, digest, input);
@@ -220,16 +240,20 @@ void run(const common::StageCommand& command, const common::SceneFile& file, con
             report.add_time("packing", packing);
             if (!earlier) mount_layout(*start.simulation, scene, start.packed, nullptr);
             flow.require_cover(start.simulation->blocks);
-            if (span && span->grid && start.simulation->water() != nullptr) start.simulation->water()->motion = *span->grid;
+            if (span && span->grid && start.simulation->water() != nullptr)
+                start.simulation->water()->motion = *span->grid;
             start.simulation->blocks_were_placed(begin);
             report.set_first_energy(start.simulation->energy());
         }
         Simulation& simulation = *start.simulation;
-        folder.write_geometry(geometry_of(simulation, start.packed, placement_digest(scene.placed, scene.surroundings)));
+        folder.write_geometry(
+            geometry_of(simulation, start.packed, placement_digest(scene.placed, scene.surroundings)));
         common::XdmfIndex pictures;
         for (std::int64_t index = folder.next_window(); span; span = flow.receive(++index)) {
-            if (span->grid && simulation.water() != nullptr) simulation.water()->motion = std::move(*span->grid);
-            common::Window window = advance(simulation, start.packed, scene, span->begin, span->end, index, progress, report);
+            if (span->grid && simulation.water() != nullptr)
+                simulation.water()->motion = std::move(*span->grid);
+            common::Window window =
+                advance(simulation, start.packed, scene, span->begin, span->end, index, progress, report);
             pictures.add(window);
             folder.publish(std::move(window), state_of(simulation, start.packed, scene, report));
             pictures.write(command.out, "dem");

@@ -14,6 +14,7 @@ void check(const common::StageCommand& command, const common::SceneFile& file, c
 void pack(const common::StageCommand& command, const common::SceneFile& file, const Scene& scene);
 
 /// `dem run`: receive flow, advance, publish, window by window.
-void run(const common::StageCommand& command, const common::SceneFile& file, const common::SceneFile* layout, const Scene& scene);
+void run(const common::StageCommand& command, const common::SceneFile& file, const common::SceneFile* layout,
+         const Scene& scene);
 
 }  // namespace dem

@@ -14,33 +14,46 @@ using common::Section;
 
 namespace {
 
-Vector read_vector(const Section& section, const char* key, const char* unit, const char* about, const Vector& fallback) {
+Vector read_vector(const Section& section, const char* key, const char* unit, const char* about,
+                   const Vector& fallback) {
     const auto v = section.numbers(key, unit, about, 3, Range::any(),
                                    std::vector<double>{fallback.x(), fallback.y(), fallback.z()});
     return {v[0], v[1], v[2]};
 }
 
 void read_material(const Section& dem, Scene& scene) {
-    scene.element.diameter = dem.number("element_diameter", "m", "diameter d of a sphere element", Range::positive(), 0.008);
-    scene.element.density_ratio =
-        dem.number("density_ratio", "-", "density s of an element over that of water", Range::positive(), 3.689);
+    scene.element.diameter =
+        dem.number("element_diameter", "m", "diameter d of a sphere element", Range::positive(), 0.008);
+    scene.element.density_ratio = dem.number(
+        "density_ratio", "-", "density s of an element over that of water", Range::positive(), 3.689);
     scene.water.density = dem.number("water_density", "kg/m3", "density of water", Range::positive(), 1000);
-    scene.water.viscosity = dem.number("viscosity", "m2/s", "kinematic viscosity of water", Range::not_negative(), 1e-6);
-    scene.water.added_mass_coefficient = dem.number("added_mass", "-", "added mass coefficient C_M", Range::not_negative(), 0.5);
-    scene.material.young_modulus = dem.number("young_modulus", "Pa", "of the elements", Range::positive(), 1e7);
+    scene.water.viscosity =
+        dem.number("viscosity", "m2/s", "kinematic viscosity of water", Range::not_negative(), 1e-6);
+    scene.water.added_mass_coefficient =
+        dem.number("added_mass", "-", "added mass coefficient C_M", Range::not_negative(), 0.5);
+    scene.material.young_modulus =
+        dem.number("young_modulus", "Pa", "of the elements", Range::positive(), 1e7);
     scene.material.poisson_ratio =
-        dem.number("poisson_ratio", "-", "of the elements", Range{.lowest = 0, .highest = 0.5, .highest_is_open = true}, 0.3);
-    scene.material.friction = dem.number("friction", "-", "Coulomb coefficient mu between elements", Range::not_negative(), 0.577);
+        dem.number("poisson_ratio", "-", "of the elements",
+                   Range{.lowest = 0, .highest = 0.5, .highest_is_open = true}, 0.3);
+    scene.material.friction =
+        dem.number("friction", "-", "Coulomb coefficient mu between elements", Range::not_negative(), 0.577);
     scene.material.damping_ratio =
-        dem.number("damping_ratio", "-", "of contacts; 1 is critical damping of the two bodies", Range::not_negative(), 1.0);
-    scene.contact = dem.choice("contact", "contact law", {"hertz", "linear"}, "hertz") == "linear" ? ContactLaw::linear
-                                                                                                  : ContactLaw::hertz;
-    scene.reference_overlap = scene.element.diameter * dem.number("reference_overlap", "d", "overlap where k_n of the linear law and of wires is taken from Hertz theory",
+        dem.number("damping_ratio", "-", "of contacts; 1 is critical damping of the two bodies",
+                   Range::not_negative(), 1.0);
+    scene.contact = dem.choice("contact", "contact law", {"hertz", "linear"}, "hertz") == "linear"
+                        ? ContactLaw::linear
+                        : ContactLaw::hertz;
+    scene.reference_overlap =
+        scene.element.diameter *
+        dem.number("reference_overlap", "d",
+                   "overlap where k_n of the linear law and of wires is taken from Hertz theory",
                    Range{.lowest = 0, .highest = 0.2, .lowest_is_open = true}, 0.01);
     scene.gravity = read_vector(dem, "gravity", "m/s2", "acceleration of gravity", Vector(0, 0, -9.81));
 }
 
-/// Defaults are shares of the time a Rayleigh wave takes over a sphere, so that they follow stiffness and size.
+/// Defaults are shares of the time a Rayleigh wave takes over a sphere, so that they follow stiffness and
+/// size.
 double rayleigh_time(const Scene& scene) {
     const Material& m = scene.material;
     const double shear_modulus = m.young_modulus / (2 * (1 + m.poisson_ratio));
@@ -50,25 +63,37 @@ double rayleigh_time(const Scene& scene) {
 }
 
 void read_stepping(const SceneFile& file, const Section& dem, Scene& scene) {
-    const double share = file.accuracy() == common::Accuracy::draft ? 0.48 : file.accuracy() == common::Accuracy::standard ? 0.24 : 0.12;
-    const double flow = file.accuracy() == common::Accuracy::draft ? 4e-3 : file.accuracy() == common::Accuracy::standard ? 2e-3 : 1e-3;
+    const double share = file.accuracy() == common::Accuracy::draft      ? 0.48
+                         : file.accuracy() == common::Accuracy::standard ? 0.24
+                                                                         : 0.12;
+    const double flow = file.accuracy() == common::Accuracy::draft      ? 4e-3
+                        : file.accuracy() == common::Accuracy::standard ? 2e-3
+                                                                        : 1e-3;
     // Two digits are enough for a default, and read better in run.json.
     const double chosen = std::stod(fmt::format("{:.1e}", share * rayleigh_time(scene)));
     scene.time_step_is_chosen = !dem.has("time_step");
-    scene.step.time_step = dem.number("time_step", "s", "largest step; default from the accuracy and the stiffness", Range::positive(), chosen);
-    scene.step.flow_interval = dem.number("flow_interval", "s", "between samples of the water at every sphere", Range::positive(), flow);
+    scene.step.time_step =
+        dem.number("time_step", "s", "largest step; default from the accuracy and the stiffness",
+                   Range::positive(), chosen);
+    scene.step.flow_interval = dem.number(
+        "flow_interval", "s", "between samples of the water at every sphere", Range::positive(), flow);
     const double d = scene.element.diameter;
-    scene.step.skin = d * dem.number("skin", "d", "of neighbour lists; no effect on results", Range{.lowest = 0, .highest = 2, .lowest_is_open = true}, 0.15);
-    scene.step.overlap_noted = d * dem.number("overlap_noted", "d", "deeper contacts are counted", Range::positive(), 0.05);
-    scene.step.overlap_limit = d * dem.number("overlap_limit", "d", "deeper contacts stop the run", Range::positive(), 0.5);
-    scene.output_interval = dem.number("output_interval", "s", "between recorded instants", Range::positive(), 0.05);
+    scene.step.skin = d * dem.number("skin", "d", "of neighbour lists; no effect on results",
+                                     Range{.lowest = 0, .highest = 2, .lowest_is_open = true}, 0.15);
+    scene.step.overlap_noted =
+        d * dem.number("overlap_noted", "d", "deeper contacts are counted", Range::positive(), 0.05);
+    scene.step.overlap_limit =
+        d * dem.number("overlap_limit", "d", "deeper contacts stop the run", Range::positive(), 0.5);
+    scene.output_interval =
+        dem.number("output_interval", "s", "between recorded instants", Range::positive(), 0.05);
 }
 
 void read_water(const Section& dem, Scene& scene, bool& dry) {
     dry = dem.boolean("dry", "no water at all", false);
-    scene.uniform_water.velocity = read_vector(dem, "current", "m/s", "uniform water velocity without a flow", Vector::Zero());
-    scene.uniform_water.acceleration =
-        read_vector(dem, "current_acceleration", "m/s2", "uniform water acceleration without a flow", Vector::Zero());
+    scene.uniform_water.velocity =
+        read_vector(dem, "current", "m/s", "uniform water velocity without a flow", Vector::Zero());
+    scene.uniform_water.acceleration = read_vector(
+        dem, "current_acceleration", "m/s2", "uniform water acceleration without a flow", Vector::Zero());
     scene.uniform_water.element_diameter = scene.element.diameter;
     scene.still_outside =
         dem.choice("flow_outside", "water outside the flow grid", {"error", "still"}, "error") == "still";
@@ -76,9 +101,11 @@ void read_water(const Section& dem, Scene& scene, bool& dry) {
 
 void read_sleep(const Section& dem, Scene& scene) {
     const Section sleeping = dem.table("sleeping");
-    scene.sleep.rest_time = sleeping.number("rest_time", "s", "a block must rest so long before it sleeps", Range::positive(), 0.1);
+    scene.sleep.rest_time = sleeping.number("rest_time", "s", "a block must rest so long before it sleeps",
+                                            Range::positive(), 0.1);
     scene.sleep.rest_displacement =
-        scene.element.diameter * sleeping.number("rest_displacement", "d", "farthest point, over rest_time", Range::positive(), 1e-4);
+        scene.element.diameter *
+        sleeping.number("rest_displacement", "d", "farthest point, over rest_time", Range::positive(), 1e-4);
     scene.sleep.wake_load =
         sleeping.number("wake_load", "-", "change of load that wakes, in weights", Range::positive(), 0.05);
 }
@@ -94,19 +121,24 @@ void choose(const SceneFile& file, const char* name, bool automatic, const std::
 void choose_effects(const SceneFile& file, bool dry, Scene& scene) {
     Effects& effects = scene.effects;
     const bool has_links = !scene.wires.links.empty(), has_friction = scene.material.friction > 0;
-    choose(file, "fluid_force", !dry, dry ? "dem.dry: no water" : "there is water where blocks are", !dry, "dem.dry is true",
-           effects.fluid_force, effects);
-    choose(file, "wires", has_links, has_links ? fmt::format("{} links in the layout", scene.wires.links.size()) : "no links in the layout",
+    choose(file, "fluid_force", !dry, dry ? "dem.dry: no water" : "there is water where blocks are", !dry,
+           "dem.dry is true", effects.fluid_force, effects);
+    choose(file, "wires", has_links,
+           has_links ? fmt::format("{} links in the layout", scene.wires.links.size())
+                     : "no links in the layout",
            has_links, "no links in the layout", effects.wires, effects);
-    choose(file, "wire_breaking", effects.wires, effects.wires ? fmt::format("psi = {} is finite", scene.wires.psi) : "no wires", effects.wires,
+    choose(file, "wire_breaking", effects.wires,
+           effects.wires ? fmt::format("psi = {} is finite", scene.wires.psi) : "no wires", effects.wires,
            "no wires", effects.wire_breaking, effects);
     choose(file, "tangential_history", has_friction,
-           has_friction ? fmt::format("friction {} > 0", scene.material.friction) : "friction is 0", has_friction, "friction is 0",
-           effects.tangential_history, effects);
+           has_friction ? fmt::format("friction {} > 0", scene.material.friction) : "friction is 0",
+           has_friction, "friction is 0", effects.tangential_history, effects);
     choose(file, "sleeping", true, "always, unless off", true, "", effects.sleeping, effects);
-    choose(file, "still_windows", effects.sleeping, effects.sleeping ? "always, with sleeping" : "sleeping is off", effects.sleeping,
+    choose(file, "still_windows", effects.sleeping,
+           effects.sleeping ? "always, with sleeping" : "sleeping is off", effects.sleeping,
            "sleeping is off", effects.still_windows, effects);
     if (!effects.tangential_history) scene.material.friction = 0;
+    scene.step.cross_still = effects.still_windows;
 }
 
 }  // namespace
@@ -122,9 +154,12 @@ Scene read_scene(const SceneFile& file, const SceneFile* layout) {
     read_sleep(dem, scene);
     const Section restart = dem.table("restart");
     if (restart.has("time"))
-        scene.restart_time = restart.number("time", "s", "instant of the earlier run to start from (with --from a window)", Range::any(), 0.0);
+        scene.restart_time =
+            restart.number("time", "s", "instant of the earlier run to start from (with --from a window)",
+                           Range::any(), 0.0);
     if (restart.has("clock"))
-        scene.restart_clock = restart.number("clock", "s", "time at which the new run starts; default: the same instant", Range::any(), 0.0);
+        scene.restart_clock = restart.number(
+            "clock", "s", "time at which the new run starts; default: the same instant", Range::any(), 0.0);
     read_blocks(file, scene);
     read_wires(file, layout, scene);
     choose_effects(file, dry, scene);

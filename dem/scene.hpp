@@ -28,17 +28,18 @@ struct Effects {
 /// Wires as the layout asks for them.
 struct WireRules {
     WireLaw law = WireLaw::hooke;
-    double psi = 0.3;        ///< longest stretch in element diameters
-    double stiffness = 0;    ///< k_n, N/m
+    double psi = 0.3;      ///< longest stretch in element diameters
+    double stiffness = 0;  ///< k_n, N/m
     std::vector<LinkRequest> links;
-    std::vector<std::uint32_t> put_back;  ///< blocks put back to their packed pose before the layout is mounted
+    std::vector<std::uint32_t>
+        put_back;  ///< blocks put back to their packed pose before the layout is mounted
 };
 
 /// How blocks come to rest before the run.
 struct PackingRules {
     bool settle = true;
-    double longest = 5;     ///< s
-    double speed = 1e-3;    ///< blocks slower than this have settled, m/s
+    double longest = 5;   ///< s
+    double speed = 1e-3;  ///< blocks slower than this have settled, m/s
 };
 
 /// What a scene says about blocks.
@@ -49,17 +50,17 @@ struct Scene {
     Water water;
     Material material;
     Vector gravity{0, 0, -9.81};
-    double displaced_volume = 0;    ///< of a block, m^3; 0: that of its elements
+    double displaced_volume = 0;  ///< of a block, m^3; 0: that of its elements
     ContactLaw contact = ContactLaw::hertz;
-    double reference_overlap = 0;   ///< m
+    double reference_overlap = 0;  ///< m
     StepRules step;
     bool time_step_is_chosen = true;  ///< by the program, not by the scene
     SleepRules sleep;
     UniformWater uniform_water;
     bool still_outside = false;
-    double width = 0;               ///< of the armour along the breakwater, m
+    double width = 0;  ///< of the armour along the breakwater, m
     std::size_t rows = 0, columns = 0;
-    Blocks placed;                  ///< before packing
+    Blocks placed;  ///< before packing
     Surroundings surroundings;
     PackingRules packing;
     WireRules wires;
@@ -67,8 +68,8 @@ struct Scene {
     Effects effects;
 };
 
-/// Reads everything this stage needs. Mistakes are noted in `file` (and `layout`); call finish() on both afterwards.
-/// `layout`: its [wires] replaces the scene's links; may be null.
+/// Reads everything this stage needs. Mistakes are noted in `file` (and `layout`); call finish() on both
+/// afterwards. `layout`: its [wires] replaces the scene's links; may be null.
 Scene read_scene(const common::SceneFile& file, const common::SceneFile* layout);
 
 /// Shapes, placed blocks, mound, walls (scene_blocks.cpp).

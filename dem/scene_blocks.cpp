@@ -39,7 +39,8 @@ class ShapeBook {
         } catch (const std::exception& error) {
             section.problem("shape", error.what());
             // A stand-in, so that the rest of the scene is read and its mistakes are told as well.
-            scene_.placed.shapes.push_back(make_shape(find_shape("beehive96", "."), scene_.element, scene_.water.density));
+            scene_.placed.shapes.push_back(
+                make_shape(find_shape("beehive96", "."), scene_.element, scene_.water.density));
         }
         return index_[name] = static_cast<int>(scene_.placed.shapes.size()) - 1;
     }
@@ -56,17 +57,19 @@ void read_single_blocks(const Section& dem, ShapeBook& book, Scene& scene) {
         const auto position = entry.numbers("position", "m", "centre of mass", 3, Range::any());
         const auto turn = entry.numbers("orientation", "-", "quaternion w, x, y, z", 4, Range::any(),
                                         std::vector<double>{1, 0, 0, 0});
-        const auto velocity = entry.numbers("velocity", "m/s", "at the start", 3, Range::any(), std::vector<double>{0, 0, 0});
-        const auto spin = entry.numbers("angular_velocity", "rad/s", "at the start, world axes", 3, Range::any(),
-                                        std::vector<double>{0, 0, 0});
+        const auto velocity =
+            entry.numbers("velocity", "m/s", "at the start", 3, Range::any(), std::vector<double>{0, 0, 0});
+        const auto spin = entry.numbers("angular_velocity", "rad/s", "at the start, world axes", 3,
+                                        Range::any(), std::vector<double>{0, 0, 0});
         const bool fixed = entry.boolean("fixed", "never moves", false);
         const Quaternion orientation(turn[0], turn[1], turn[2], turn[3]);
         if (orientation.norm() < 1e-6) {
             entry.problem("orientation", "expected a quaternion other than zero");
             continue;
         }
-        const Quaternion body = orientation.normalized() *
-                                scene.placed.shapes[static_cast<std::size_t>(shape)].body_from_file.conjugate();
+        const Quaternion body =
+            orientation.normalized() *
+            scene.placed.shapes[static_cast<std::size_t>(shape)].body_from_file.conjugate();
         scene.placed.add(shape, Vector(position[0], position[1], position[2]), body, fixed,
                          Vector(velocity[0], velocity[1], velocity[2]), Vector(spin[0], spin[1], spin[2]));
     }
@@ -83,7 +86,8 @@ void read_walls(const Section& dem, Scene& scene) {
         }
         scene.surroundings.planes.push_back({Vector(point[0], point[1], point[2]), direction.normalized()});
     }
-    scene.width = dem.number("width", "m", "of the armour along the breakwater; 0: unbounded", Range::not_negative(), 0.0);
+    scene.width = dem.number("width", "m", "of the armour along the breakwater; 0: unbounded",
+                             Range::not_negative(), 0.0);
     const std::string sides = dem.choice("sides", "what bounds the width", {"walls", "periodic", "open"},
                                          scene.width > 0 ? "walls" : "open");
     if (sides != "open" && scene.width <= 0) dem.problem("sides", "needs dem.width");
@@ -95,7 +99,8 @@ void read_walls(const Section& dem, Scene& scene) {
 }
 
 /// The mean mound and its rough columns; empty with mound = "none".
-MoundDescription read_mound(const Section& dem, const Scene& scene, double block_height, std::vector<Vector>& spheres) {
+MoundDescription read_mound(const Section& dem, const Scene& scene, double block_height,
+                            std::vector<Vector>& spheres) {
     MoundDescription mound;
     if (!dem.has("mound") || dem.is_text("mound")) {
         dem.choice("mound", "table with profile, roughness, seed", {"none"}, "none");
@@ -103,19 +108,24 @@ MoundDescription read_mound(const Section& dem, const Scene& scene, double block
     }
     const Section section = dem.table("mound");
     mound.profile = section.points("profile", "m", "mean surface [[x, z], ...], x increasing");
-    mound.roughness = section.number("roughness", "m", "standard deviation of the columns' heights; default a third of the block height",
-                                     Range::not_negative(), block_height / 3);
-    mound.seed = static_cast<std::uint64_t>(section.integer("seed", "of the random heights", Range::not_negative(), 1));
+    mound.roughness = section.number(
+        "roughness", "m", "standard deviation of the columns' heights; default a third of the block height",
+        Range::not_negative(), block_height / 3);
+    mound.seed = static_cast<std::uint64_t>(
+        section.integer("seed", "of the random heights", Range::not_negative(), 1));
     const auto y = section.numbers("y", "m", "extent along the breakwater", 2, Range::any(),
                                    std::vector<double>{0, scene.width > 0 ? scene.width : 1.0});
-    mound.least_depth = section.number("least_depth", "m", "columns reach at least so far down", Range::not_negative(), 0.0);
+    mound.least_depth =
+        section.number("least_depth", "m", "columns reach at least so far down", Range::not_negative(), 0.0);
     mound.y_begin = y[0];
     mound.y_end = y[1];
     mound.diameter = scene.element.diameter;
     bool good = mound.profile.size() >= 2 && y[1] > y[0];
-    for (std::size_t i = 1; i < mound.profile.size(); ++i) good = good && mound.profile[i][0] > mound.profile[i - 1][0];
+    for (std::size_t i = 1; i < mound.profile.size(); ++i)
+        good = good && mound.profile[i][0] > mound.profile[i - 1][0];
     if (!good) {
-        section.problem("profile", "expected at least two points with x increasing, and y = [from, to] with to > from");
+        section.problem("profile",
+                        "expected at least two points with x increasing, and y = [from, to] with to > from");
         mound.profile.clear();
         return mound;
     }
@@ -134,8 +144,10 @@ MoundDescription read_mound(const Section& dem, const Scene& scene, double block
 int read_armour(const Section& dem, ShapeBook& book, Scene& scene) {
     const Section blocks = dem.table("blocks");
     const int shape = book.read(blocks);
-    scene.rows = static_cast<std::size_t>(blocks.integer("rows", "across the breakwater", Range::between(1, 10000)));
-    scene.columns = static_cast<std::size_t>(blocks.integer("columns", "along the breakwater", Range::between(1, 10000)));
+    scene.rows =
+        static_cast<std::size_t>(blocks.integer("rows", "across the breakwater", Range::between(1, 10000)));
+    scene.columns =
+        static_cast<std::size_t>(blocks.integer("columns", "along the breakwater", Range::between(1, 10000)));
     return shape;
 }
 
@@ -145,12 +157,20 @@ void place_armour(const Section& dem, Scene& scene, int shape, const FixedSphere
     const auto origin = blocks.numbers("origin", "m", "x, y of block 1", 2, Range::any());
     const auto pitch = blocks.numbers("pitch", "m", "across and along", 2, Range::positive(),
                                       std::vector<double>{1.05 * form.length, 1.05 * form.length});
-    const auto behind = blocks.integer("fixed_rows", "fixed rows between row 1 and the shore", Range::between(0, 100), 0);
+    const auto behind =
+        blocks.integer("fixed_rows", "fixed rows between row 1 and the shore", Range::between(0, 100), 0);
     const bool has_level = blocks.has("level");
-    const double level = has_level ? blocks.number("level", "m", "height of all centres; default: just above the mound", Range::any(), 0.0) : 0;
-    const auto layers = static_cast<std::size_t>(blocks.integer("layers", "on top of each other", Range::between(1, 100), 1));
-    scene.displaced_volume = blocks.number("displaced_volume", "m3", "water displaced by one block; 0: by its elements", Range::not_negative(), 0.0);
-    if (!has_level && !dem.is_table("mound")) blocks.problem("level", "required where there is no mound: height of the blocks' centres");
+    const double level =
+        has_level ? blocks.number("level", "m", "height of all centres; default: just above the mound",
+                                  Range::any(), 0.0)
+                  : 0;
+    const auto layers =
+        static_cast<std::size_t>(blocks.integer("layers", "on top of each other", Range::between(1, 100), 1));
+    scene.displaced_volume =
+        blocks.number("displaced_volume", "m3", "water displaced by one block; 0: by its elements",
+                      Range::not_negative(), 0.0);
+    if (!has_level && !dem.is_table("mound"))
+        blocks.problem("level", "required where there is no mound: height of the blocks' centres");
     const ArmourPlan plan{.shape = shape,
                           .rows = scene.rows,
                           .columns = scene.columns,
@@ -177,8 +197,9 @@ void read_blocks(const SceneFile& file, Scene& scene) {
         block_height = scene.placed.shapes[static_cast<std::size_t>(*armour)].height;
     }
 
-    std::vector<Vector> fixed = vectors(dem.rows("fixed_spheres", "m", "centres of fixed spheres of diameter d", 3,
-                                                 std::vector<std::vector<double>>{}));
+    std::vector<Vector> fixed =
+        vectors(dem.rows("fixed_spheres", "m", "centres of fixed spheres of diameter d", 3,
+                         std::vector<std::vector<double>>{}));
     std::vector<Vector> columns;
     read_mound(dem, scene, block_height, columns);
     fixed.insert(fixed.end(), columns.begin(), columns.end());
@@ -194,20 +215,26 @@ void read_blocks(const SceneFile& file, Scene& scene) {
     if (scene.placed.size() == 0) dem.problem("", "no blocks: give [dem.blocks] or [[dem.block]]");
 
     const Section packing = dem.table("packing");
-    scene.packing.settle = packing.choice("method", "how blocks come to rest before the run", {"settle", "none"},
-                                          armour ? "settle" : "none") == "settle";
+    scene.packing.settle = packing.choice("method", "how blocks come to rest before the run",
+                                          {"settle", "none"}, armour ? "settle" : "none") == "settle";
     scene.packing.longest = packing.number("longest", "s", "packing gives up after", Range::positive(), 5.0);
-    scene.packing.speed = packing.number("speed", "m/s", "slower blocks have settled", Range::positive(), 1e-3);
+    scene.packing.speed =
+        packing.number("speed", "m/s", "slower blocks have settled", Range::positive(), 1e-3);
 
     for (std::size_t i = 0; i < scene.placed.size(); ++i) {
         const Vector& p = scene.placed.position[i];
-        const double top = scene.surroundings.fixed_spheres.highest_near(p.x(), p.y(), 0.75 * scene.element.diameter);
+        const double top =
+            scene.surroundings.fixed_spheres.highest_near(p.x(), p.y(), 0.75 * scene.element.diameter);
         if (scene.placed.is_fixed[i] || p.z() >= top) continue;
         const auto tables = dem.tables("block");
-        const std::string message = fmt::format("block {} starts inside the mound: its centre is at z = {:.4g} m, the mound there reaches {:.4g} m",
-                                                i + 1, p.z(), top + 0.5 * scene.element.diameter);
-        if (i >= placed_singly) tables[i - placed_singly].problem("position", message);
-        else dem.table("blocks").problem("level", message);
+        const std::string message = fmt::format(
+            "block {} starts inside the mound: its centre is at z = {:.4g} m, the mound there reaches {:.4g} "
+            "m",
+            i + 1, p.z(), top + 0.5 * scene.element.diameter);
+        if (i >= placed_singly)
+            tables[i - placed_singly].problem("position", message);
+        else
+            dem.table("blocks").problem("level", message);
         return;
     }
 
@@ -215,8 +242,8 @@ void read_blocks(const SceneFile& file, Scene& scene) {
     if (const auto clash = deepest_overlap(scene.placed, scene.surroundings); clash.depth > allowed) {
         const auto tables = dem.tables("block");
         const std::size_t single = clash.block - std::min(clash.block, placed_singly);
-        const std::string message = fmt::format("block {} starts {:.2g} m deep in {}; at most {:.2g} m", clash.block + 1, clash.depth,
-                                                clash.partner, allowed);
+        const std::string message = fmt::format("block {} starts {:.2g} m deep in {}; at most {:.2g} m",
+                                                clash.block + 1, clash.depth, clash.partner, allowed);
         if (clash.block >= placed_singly && single < tables.size())
             tables[single].problem("position", message);
         else

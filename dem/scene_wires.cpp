@@ -19,17 +19,22 @@ class LinkReader {
     explicit LinkReader(Scene& scene) : scene_(scene) {}
 
     void single(const Section& entry) {
-        const auto numbers = entry.numbers("blocks", "-", "numbers of the two blocks, from 1", 2, Range::any());
+        const auto numbers =
+            entry.numbers("blocks", "-", "numbers of the two blocks, from 1", 2, Range::any());
         LinkRequest link = options(entry);
-        if (!block(entry, "blocks", numbers[0], link.block_a) || !block(entry, "blocks", numbers[1], link.block_b)) return;
+        if (!block(entry, "blocks", numbers[0], link.block_a) ||
+            !block(entry, "blocks", numbers[1], link.block_b))
+            return;
         if (link.block_a == link.block_b) {
             entry.problem("blocks", fmt::format("block {} is linked to itself", link.block_a + 1));
             return;
         }
         if (entry.has("spheres")) {
-            const auto spheres = entry.numbers("spheres", "-", "numbers of the two spheres, from 1", 2, Range::any());
+            const auto spheres =
+                entry.numbers("spheres", "-", "numbers of the two spheres, from 1", 2, Range::any());
             std::array<std::uint32_t, 2> chosen{};
-            if (!sphere(entry, spheres[0], link.block_a, chosen[0]) || !sphere(entry, spheres[1], link.block_b, chosen[1]))
+            if (!sphere(entry, spheres[0], link.block_a, chosen[0]) ||
+                !sphere(entry, spheres[1], link.block_b, chosen[1]))
                 return;
             link.spheres = chosen;
         }
@@ -48,7 +53,8 @@ class LinkReader {
 
     /// Neighbours in the same column.
     void across(const Section& entry) {
-        const auto columns = numbers(entry, "columns", "columns whose neighbours are linked, from 1", scene_.columns);
+        const auto columns =
+            numbers(entry, "columns", "columns whose neighbours are linked, from 1", scene_.columns);
         const auto rows = span(entry, "rows", "first and last row, from 1", scene_.rows);
         const LinkRequest options_of_all = options(entry);
         for (const auto column : columns)
@@ -62,9 +68,11 @@ class LinkReader {
         std::set<std::uint32_t> chosen;
         if (section.has("rows"))
             for (const auto row : numbers(section, "rows", "rows put back to their packed pose", scene_.rows))
-                for (std::size_t column = 1; column <= scene_.columns; ++column) chosen.insert(at(row, column));
+                for (std::size_t column = 1; column <= scene_.columns; ++column)
+                    chosen.insert(at(row, column));
         if (section.has("blocks"))
-            for (const double number : section.numbers("blocks", "-", "blocks put back to their packed pose", 0, Range::any()))
+            for (const double number :
+                 section.numbers("blocks", "-", "blocks put back to their packed pose", 0, Range::any()))
                 if (std::uint32_t found = 0; block(section, "blocks", number, found)) chosen.insert(found);
         scene_.wires.put_back.assign(chosen.begin(), chosen.end());
     }
@@ -72,13 +80,16 @@ class LinkReader {
  private:
     static LinkRequest options(const Section& entry) {
         LinkRequest link{};
-        link.wires = static_cast<std::size_t>(
-            entry.integer("wires", "of the pairs of facing spheres, evenly chosen; 0: all", Range::not_negative(), 0));
+        link.wires = static_cast<std::size_t>(entry.integer(
+            "wires", "of the pairs of facing spheres, evenly chosen; 0: all", Range::not_negative(), 0));
         if (entry.has("rest_length"))
-            link.rest_length = entry.number("rest_length", "m", "r0; default: distance of centres when packed", Range::not_negative(), 0.0);
+            link.rest_length =
+                entry.number("rest_length", "m", "r0; default: distance of centres when packed",
+                             Range::not_negative(), 0.0);
         link.slack = entry.number("slack", "m", "added to the packed distance", Range::not_negative(), 0.0);
         if (entry.has("stiffness"))
-            link.stiffness = entry.number("stiffness", "N/m", "of one wire; default k_n", Range::positive(), 1.0);
+            link.stiffness =
+                entry.number("stiffness", "N/m", "of one wire; default k_n", Range::positive(), 1.0);
         return link;
     }
     bool block(const Section& entry, const char* key, double number, std::uint32_t& found) const {
@@ -92,15 +103,18 @@ class LinkReader {
     }
     bool sphere(const Section& entry, double number, std::uint32_t of, std::uint32_t& found) const {
         const auto& shape = scene_.placed.shape_of(of);
-        if (number < 1 || number > static_cast<double>(shape.spheres.size()) || number != std::floor(number)) {
-            entry.problem("spheres", fmt::format("no sphere {} in shape '{}'; its spheres are numbered 1 to {}", number,
-                                                 shape.name, shape.spheres.size()));
+        if (number < 1 || number > static_cast<double>(shape.spheres.size()) ||
+            number != std::floor(number)) {
+            entry.problem("spheres",
+                          fmt::format("no sphere {} in shape '{}'; its spheres are numbered 1 to {}", number,
+                                      shape.name, shape.spheres.size()));
             return false;
         }
         found = static_cast<std::uint32_t>(number) - 1;
         return true;
     }
-    std::vector<std::size_t> numbers(const Section& entry, const char* key, const char* about, std::size_t highest) const {
+    std::vector<std::size_t> numbers(const Section& entry, const char* key, const char* about,
+                                     std::size_t highest) const {
         std::vector<std::size_t> result;
         for (const double number : entry.numbers(key, "-", about, 0, Range::any())) {
             if (number < 1 || number > static_cast<double>(highest) || number != std::floor(number))
@@ -110,7 +124,8 @@ class LinkReader {
         }
         return result;
     }
-    std::array<std::size_t, 2> span(const Section& entry, const char* key, const char* about, std::size_t highest) const {
+    std::array<std::size_t, 2> span(const Section& entry, const char* key, const char* about,
+                                    std::size_t highest) const {
         const auto ends = entry.numbers(key, "-", about, 2, Range::any(),
                                         std::vector<double>{1, static_cast<double>(highest)});
         if (!(ends[0] >= 1 && ends[1] >= ends[0] && ends[1] <= static_cast<double>(highest))) {
@@ -122,8 +137,8 @@ class LinkReader {
     std::uint32_t at(std::size_t row, std::size_t column) const {
         return static_cast<std::uint32_t>((row - 1) * scene_.columns + column - 1);
     }
-    void add_grid(const Section& entry, const char* key, LinkRequest link, std::size_t row_a, std::size_t column_a,
-                  std::size_t row_b, std::size_t column_b) {
+    void add_grid(const Section& entry, const char* key, LinkRequest link, std::size_t row_a,
+                  std::size_t column_a, std::size_t row_b, std::size_t column_b) {
         link.block_a = at(row_a, column_a);
         link.block_b = at(row_b, column_b);
         add(entry, key, link);
@@ -135,8 +150,10 @@ class LinkReader {
                 std::swap(place.sphere_a, place.sphere_b);
             }
             if (!taken_.insert(place).second) {
-                entry.problem(key, fmt::format("blocks {} and {} are linked twice at the same spheres ({} and {})",
-                                               place.block_a + 1, place.block_b + 1, place.sphere_a + 1, place.sphere_b + 1));
+                entry.problem(key,
+                              fmt::format("blocks {} and {} are linked twice at the same spheres ({} and {})",
+                                          place.block_a + 1, place.block_b + 1, place.sphere_a + 1,
+                                          place.sphere_b + 1));
                 return;
             }
         }
@@ -154,13 +171,17 @@ void read_wires(const SceneFile& file, const SceneFile* layout, Scene& scene) {
     const Section links = layout != nullptr ? layout->section("wires") : own;
     // Constants stand in the scene unless the layout has them, so that --set wires.psi works with any layout.
     const auto home = [&](const char* key) { return layout != nullptr && links.has(key) ? links : own; };
-    scene.wires.psi = home("psi").number("psi", "d", "a wire breaks beyond r0 + psi d", Range::not_negative(), 0.3);
-    scene.wires.law = home("law").choice("law", "reading of eq. (13)", {"hooke", "progressive"}, "hooke") == "hooke"
-                          ? WireLaw::hooke
-                          : WireLaw::progressive;
-    scene.wires.stiffness = home("stiffness").number(
-        "stiffness", "N/m", "k_n of a wire; default: Hertz stiffness at dem.reference_overlap", Range::positive(),
-        scene.material.hertz_stiffness(scene.element.diameter / 4, scene.reference_overlap));
+    scene.wires.psi =
+        home("psi").number("psi", "d", "a wire breaks beyond r0 + psi d", Range::not_negative(), 0.3);
+    scene.wires.law =
+        home("law").choice("law", "reading of eq. (13)", {"hooke", "progressive"}, "hooke") == "hooke"
+            ? WireLaw::hooke
+            : WireLaw::progressive;
+    scene.wires.stiffness =
+        home("stiffness")
+            .number("stiffness", "N/m", "k_n of a wire; default: Hertz stiffness at dem.reference_overlap",
+                    Range::positive(),
+                    scene.material.hertz_stiffness(scene.element.diameter / 4, scene.reference_overlap));
     if (layout != nullptr) own.keys();  // the scene's own links stand aside: known, but not read
     LinkReader reader(scene);
     for (const Section& entry : links.tables("link")) reader.single(entry);

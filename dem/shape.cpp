@@ -19,11 +19,12 @@ std::vector<int> find_exposed(const std::vector<Vector>& spheres, double diamete
         bool reachable = false;
         for (int k = 0; k < directions && !reachable; ++k) {
             const double z = 1 - (2 * k + 1.0) / directions, r = std::sqrt(1 - z * z);
-            const Vector visitor =
-                spheres[i] + diameter * Vector(r * std::cos(golden_angle * k), r * std::sin(golden_angle * k), z);
+            const Vector visitor = spheres[i] + diameter * Vector(r * std::cos(golden_angle * k),
+                                                                  r * std::sin(golden_angle * k), z);
             reachable = true;
             for (std::size_t j = 0; j < spheres.size() && reachable; ++j)
-                if (j != i && (visitor - spheres[j]).squaredNorm() < least_distance * least_distance) reachable = false;
+                if (j != i && (visitor - spheres[j]).squaredNorm() < least_distance * least_distance)
+                    reachable = false;
         }
         if (reachable) exposed.push_back(static_cast<int>(i));
     }
@@ -60,11 +61,13 @@ Shape make_shape(const ShapeDescription& description, const Element& element, do
         least = least.cwiseMin(sphere);
         most = most.cwiseMax(sphere);
     }
-    for (const auto& sphere : description.spheres) shape.spheres.push_back((sphere - centre) * element.diameter);
+    for (const auto& sphere : description.spheres)
+        shape.spheres.push_back((sphere - centre) * element.diameter);
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t j = 0; j < i; ++j)
             if ((shape.spheres[i] - shape.spheres[j]).norm() < 1e-6 * shape.diameter)
-                throw std::invalid_argument(fmt::format("spheres {} and {} are at the same place", j + 1, i + 1));
+                throw std::invalid_argument(
+                    fmt::format("spheres {} and {} are at the same place", j + 1, i + 1));
     shape.length = (most - least).x() * element.diameter + shape.diameter;
     shape.height = (most - least).z() * element.diameter + shape.diameter;
 
@@ -72,7 +75,8 @@ Shape make_shape(const ShapeDescription& description, const Element& element, do
     const double radius = shape.diameter / 2;
     Rotation inertia = Rotation::Zero();
     for (const auto& r : shape.spheres)
-        inertia += sphere_mass * ((r.squaredNorm() + 0.4 * radius * radius) * Rotation::Identity() - r * r.transpose());
+        inertia += sphere_mass *
+                   ((r.squaredNorm() + 0.4 * radius * radius) * Rotation::Identity() - r * r.transpose());
     if (description.inertia) inertia = description.inertia->asDiagonal();
     shape.body_from_file = principal_axes(inertia);
     const Rotation turn = shape.body_from_file.toRotationMatrix();
@@ -80,7 +84,8 @@ Shape make_shape(const ShapeDescription& description, const Element& element, do
     if (shape.inertia.minCoeff() <= 0) throw std::invalid_argument("the inertia of a shape must be positive");
     // Moments that differ by rounding only are equal: motion.cpp then has less to do.
     for (const auto& [k, l] : {std::pair{0, 1}, {0, 2}, {1, 2}})
-        if (std::abs(shape.inertia[k] - shape.inertia[l]) < 1e-12 * shape.inertia[k]) shape.inertia[l] = shape.inertia[k];
+        if (std::abs(shape.inertia[k] - shape.inertia[l]) < 1e-12 * shape.inertia[k])
+            shape.inertia[l] = shape.inertia[k];
     shape.inverse_inertia = shape.inertia.cwiseInverse();
     shape.low = Vector::Constant(1e300);
     shape.high = -shape.low;

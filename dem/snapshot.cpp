@@ -30,7 +30,8 @@ std::vector<double> flat(const std::vector<Quaternion>& quaternions) {
 std::vector<Vector> vectors_from(const Dataset& dataset) {
     const auto& values = dataset.doubles();
     std::vector<Vector> vectors;
-    for (std::size_t i = 0; i + 2 < values.size(); i += 3) vectors.emplace_back(values[i], values[i + 1], values[i + 2]);
+    for (std::size_t i = 0; i + 2 < values.size(); i += 3)
+        vectors.emplace_back(values[i], values[i + 1], values[i + 2]);
     return vectors;
 }
 
@@ -44,7 +45,9 @@ std::vector<Quaternion> quaternions_from(const Dataset& dataset) {
 
 std::string placement_digest(const Blocks& placed, const Surroundings& surroundings) {
     std::vector<double> numbers;
-    const auto append = [&](const std::vector<double>& more) { numbers.insert(numbers.end(), more.begin(), more.end()); };
+    const auto append = [&](const std::vector<double>& more) {
+        numbers.insert(numbers.end(), more.begin(), more.end());
+    };
     for (const auto& shape : placed.shapes) {
         append(flat(shape.spheres));
         append({shape.diameter, shape.mass, shape.inertia.x(), shape.inertia.y(), shape.inertia.z()});
@@ -54,14 +57,16 @@ std::string placement_digest(const Blocks& placed, const Surroundings& surroundi
     append(flat(placed.position));
     append(flat(placed.orientation));
     append(flat(surroundings.fixed_spheres.centres()));
-    for (const auto& plane : surroundings.planes) append(flat(std::vector<Vector>{plane.point, plane.normal}));
+    for (const auto& plane : surroundings.planes)
+        append(flat(std::vector<Vector>{plane.point, plane.normal}));
     append({surroundings.period});
     std::string bytes(numbers.size() * sizeof(double), '\0');
     std::memcpy(bytes.data(), numbers.data(), bytes.size());
     return common::digest_of(bytes);
 }
 
-Snapshot take_snapshot(const Simulation& simulation, const PackedPoses& packed, const std::string& placement) {
+Snapshot take_snapshot(const Simulation& simulation, const PackedPoses& packed,
+                       const std::string& placement) {
     Snapshot snapshot;
     snapshot.t = simulation.time();
     snapshot.placement_digest = placement;
@@ -74,13 +79,16 @@ Snapshot take_snapshot(const Simulation& simulation, const PackedPoses& packed, 
 
 namespace {
 
-std::vector<std::int32_t> as_integers(const auto& values) { return {values.begin(), values.end()}; }
+std::vector<std::int32_t> as_integers(const auto& values) {
+    return {values.begin(), values.end()};
+}
 
 void store_contacts(const std::vector<Pair>& pairs, DataFile& file) {
     std::vector<std::int32_t> bodies, spheres;
     std::vector<double> sums, springs;
     for (const auto& pair : pairs) {
-        for (const auto number : {pair.block, pair.partner}) bodies.push_back(static_cast<std::int32_t>(number));
+        for (const auto number : {pair.block, pair.partner})
+            bodies.push_back(static_cast<std::int32_t>(number));
         bodies.push_back(pair.image);
         bodies.push_back(static_cast<std::int32_t>(pair.contacts.size()));
         for (const Vector& sum : {pair.force, pair.torque_on_block, pair.offset})
@@ -115,7 +123,8 @@ std::vector<Pair> contacts_from(const DataFile& file) {
         pair.torque_on_block = Vector(sums.data() + 9 * k + 3);
         pair.offset = Vector(sums.data() + 9 * k + 6);
         for (std::int32_t c = 0; c < bodies[4 * k + 3]; ++c, ++next)
-            pair.contacts.push_back({static_cast<std::uint32_t>(spheres.at(2 * next)), static_cast<std::uint32_t>(spheres.at(2 * next + 1)),
+            pair.contacts.push_back({static_cast<std::uint32_t>(spheres.at(2 * next)),
+                                     static_cast<std::uint32_t>(spheres.at(2 * next + 1)),
                                      springs.at(4 * next), Vector(springs.data() + 4 * next + 1)});
         pairs.push_back(std::move(pair));
     }
@@ -148,7 +157,8 @@ Wires wires_from(const DataFile& file) {
     const auto& ends = file.at("/wires/ends").integers();
     wires.rest_length = file.at("/wires/rest_length").doubles();
     wires.stiffness = file.at("/wires/stiffness").doubles();
-    for (const auto flag : file.at("/wires/intact").integers()) wires.is_intact.push_back(static_cast<std::uint8_t>(flag));
+    for (const auto flag : file.at("/wires/intact").integers())
+        wires.is_intact.push_back(static_cast<std::uint8_t>(flag));
     wires.tension = file.at("/wires/tension").doubles();
     wires.largest_tension = file.at("/wires/largest_tension").doubles();
     wires.broken_at = file.at("/wires/broken_at").doubles();
@@ -211,7 +221,8 @@ Snapshot snapshot_from(const DataFile& file) {
     snapshot.is_packing = file.integer("is_packing") != 0;
     Blocks& blocks = snapshot.blocks;
     for (const auto shape : file.at("/blocks/shape").integers()) blocks.shape.push_back(shape);
-    for (const auto fixed : file.at("/blocks/fixed").integers()) blocks.is_fixed.push_back(static_cast<std::uint8_t>(fixed));
+    for (const auto fixed : file.at("/blocks/fixed").integers())
+        blocks.is_fixed.push_back(static_cast<std::uint8_t>(fixed));
     blocks.position = vectors_from(file.at("/blocks/position"));
     blocks.orientation = quaternions_from(file.at("/blocks/orientation"));
     blocks.velocity = vectors_from(file.at("/blocks/velocity"));
@@ -237,7 +248,8 @@ Snapshot snapshot_from(const DataFile& file) {
     memory.deep_contact_steps = static_cast<std::uint64_t>(file.integer("deep_contact_steps"));
     if (file.has("/sleeping/asleep")) {
         Sleeping::Memory sleeping;
-        for (const auto flag : file.at("/sleeping/asleep").integers()) sleeping.asleep.push_back(static_cast<std::uint8_t>(flag));
+        for (const auto flag : file.at("/sleeping/asleep").integers())
+            sleeping.asleep.push_back(static_cast<std::uint8_t>(flag));
         sleeping.position = vectors_from(file.at("/sleeping/position"));
         sleeping.orientation = quaternions_from(file.at("/sleeping/orientation"));
         sleeping.force = vectors_from(file.at("/sleeping/force"));

@@ -17,9 +17,9 @@ struct PackedPoses {
 
 struct Snapshot {
     double t = 0;
-    bool is_packing = false;        ///< written by `dem pack`: nothing but weight has acted yet
-    std::string placement_digest;   ///< of shapes, places, mound and walls: states of other scenes are refused
-    Blocks blocks;                  ///< without shapes
+    bool is_packing = false;       ///< written by `dem pack`: nothing but weight has acted yet
+    std::string placement_digest;  ///< of shapes, places, mound and walls: states of other scenes are refused
+    Blocks blocks;                 ///< without shapes
     PackedPoses packed;
     Wires wires;
     Simulation::Memory memory{};
@@ -31,7 +31,8 @@ std::string placement_digest(const Blocks& placed, const Surroundings& surroundi
 /// Everything about a running simulation.
 Snapshot take_snapshot(const Simulation& simulation, const PackedPoses& packed, const std::string& placement);
 common::DataFile to_data_file(const Snapshot& snapshot);
-/// Throws common::InputError naming the dataset at fault. `blocks` of the result carry no shapes: give them those of the scene.
+/// Throws common::InputError naming the dataset at fault. `blocks` of the result carry no shapes: give them
+/// those of the scene.
 Snapshot snapshot_from(const common::DataFile& file);
 
 /// Rows of three (or w, x, y, z) for files.

@@ -80,13 +80,12 @@ void Simulation::advance(double target) {
                 if (changed) find_awake();
             }
         }
-        const double t = k + 1 == count ? target : begin + dt * static_cast<double>(k + 1);
-        if (awake_.empty()) {  // all asleep: the next look decides
-            time_ = t;
-            ++steps_;
+        if (awake_.empty()) {  // all asleep: only the next look can change that
+            if (rules_.cross_still) k = std::min(count, (k / every + 1) * every) - 1;
+            time_ = k + 1 == count ? target : begin + dt * static_cast<double>(k + 1);
             continue;
         }
-        step(dt, t);
+        step(dt, k + 1 == count ? target : begin + dt * static_cast<double>(k + 1));
     }
     check_values();
 }
@@ -105,8 +104,10 @@ void Simulation::step(double dt, double t) {
     for (const auto i : awake_) {
         kick_half(blocks, i, 0.5 * dt);
         blocks.update_angular_velocity(i);
-        // The mean velocity of the two kicks around this instant makes this the very energy that the dashpots take.
-        damping_power += damping_force_[i].dot(blocks.velocity[i]) + damping_torque_[i].dot(blocks.angular_velocity[i]);
+        // The mean velocity of the two kicks around this instant makes this the very energy that the dashpots
+        // take.
+        damping_power +=
+            damping_force_[i].dot(blocks.velocity[i]) + damping_torque_[i].dot(blocks.angular_velocity[i]);
     }
     dissipated_ -= dt * damping_power;
     for (const auto& load : loads_) load->account(blocks, awake_, dt);
@@ -117,17 +118,19 @@ void Simulation::step(double dt, double t) {
 void Simulation::sum_forces(const std::vector<std::uint32_t>& of, const std::vector<std::uint8_t>& is_wanted,
                             const std::vector<std::uint32_t>& pairs_to_add, double dt) {
     for (const auto i : of) {
-        blocks.force[i] = blocks.shape_of(i).mass * gravity_;  // (11), dry part: buoyancy comes with the water
+        blocks.force[i] =
+            blocks.shape_of(i).mass * gravity_;  // (11), dry part: buoyancy comes with the water
         blocks.torque[i].setZero();
         damping_force_[i].setZero();
         damping_torque_[i].setZero();
     }
     for (const auto& load : loads_) load->add(blocks, of, is_wanted, time_);
-    // Pairs in their order: every block adds its own up in the same order, whoever is listed and however many threads run.
-    // In portions that stay in the cache between their evaluation and their adding up.
+    // Pairs in their order: every block adds its own up in the same order, whoever is listed and however many
+    // threads run. In portions that stay in the cache between their evaluation and their adding up.
     constexpr std::size_t portion = 4096;
     for (std::size_t from = 0; from < pairs_to_add.size(); from += portion) {
-        const std::span<const std::uint32_t> some(pairs_to_add.data() + from, std::min(portion, pairs_to_add.size() - from));
+        const std::span<const std::uint32_t> some(pairs_to_add.data() + from,
+                                                  std::min(portion, pairs_to_add.size() - from));
         if (dt > 0) contact_model_->evaluate(blocks, surroundings_, pair_list_, some, dt);
         for (const auto k : some) {
             const Pair& pair = pair_list_.pairs()[k];
@@ -146,7 +149,8 @@ void Simulation::sum_forces(const std::vector<std::uint32_t>& of, const std::vec
             }
             if (dt > 0) {
                 dissipated_ += pair.dissipated;
-                if (pair.largest_overlap > rules_.overlap_noted || pair.largest_overlap > largest_overlap_) note_overlap(pair);
+                if (pair.largest_overlap > rules_.overlap_noted || pair.largest_overlap > largest_overlap_)
+                    note_overlap(pair);
             }
         }
     }
@@ -164,31 +168,36 @@ void Simulation::note_overlap(const Pair& pair) {
     largest_overlap_ = std::max(largest_overlap_, pair.largest_overlap);
     if (pair.largest_overlap > rules_.overlap_noted) ++deep_contact_steps_;
     if (pair.largest_overlap > rules_.overlap_limit)
-        throw common::RunError(fmt::format(
-            "t = {:.5f} s: block {} is {:.2g} m deep in {}, past the limit of {:.2g} m; a shorter dem.time_step or stiffer "
-            "spheres are needed",
-            time_, pair.block + 1, pair.largest_overlap,
-            pair_list_.is_block(pair.partner)           ? fmt::format("block {}", pair.partner + 1)
-            : pair_list_.is_fixed_spheres(pair.partner) ? std::string("the fixed spheres")
-                                                        : std::string("a plane"),
-            rules_.overlap_limit));
+        throw common::RunError(
+            fmt::format("t = {:.5f} s: block {} is {:.2g} m deep in {}, past the limit of {:.2g} m; a "
+                        "shorter dem.time_step or stiffer "
+                        "spheres are needed",
+                        time_, pair.block + 1, pair.largest_overlap,
+                        pair_list_.is_block(pair.partner) ? fmt::format("block {}", pair.partner + 1)
+                        : pair_list_.is_fixed_spheres(pair.partner) ? std::string("the fixed spheres")
+                                                                    : std::string("a plane"),
+                        rules_.overlap_limit));
 }
 
 void Simulation::check_values() const {
     for (const auto i : awake_)
         if (!blocks.position[i].allFinite() || !blocks.velocity[i].allFinite() ||
             !blocks.orientation[i].coeffs().allFinite() || !blocks.angular_momentum[i].allFinite())
-            throw common::RunError(fmt::format("t = {:.5f} s: the motion of block {} is no longer finite", time_, i + 1));
+            throw common::RunError(
+                fmt::format("t = {:.5f} s: the motion of block {} is no longer finite", time_, i + 1));
     // Below everything that could hold it, a block would fall for ever.
     if (surroundings_.fixed_spheres.empty() || !surroundings_.planes.empty()) {
         bool has_floor = surroundings_.fixed_spheres.empty();
-        for (const auto& plane : surroundings_.planes) has_floor = has_floor || plane.normal.dot(gravity_) < -0.1 * gravity_.norm();
+        for (const auto& plane : surroundings_.planes)
+            has_floor = has_floor || plane.normal.dot(gravity_) < -0.1 * gravity_.norm();
         if (has_floor) return;
     }
     for (const auto i : awake_)
         if (blocks.position[i].z() < surroundings_.fixed_spheres.lowest() - 4 * blocks.shape_of(i).radius)
-            throw common::RunError(fmt::format("t = {:.5f} s: block {} has left the mound at x = {:.3f}, y = {:.3f} m and falls; extend dem.mound.profile",
-                                               time_, i + 1, blocks.position[i].x(), blocks.position[i].y()));
+            throw common::RunError(
+                fmt::format("t = {:.5f} s: block {} has left the mound at x = {:.3f}, y = {:.3f} m and "
+                            "falls; extend dem.mound.profile",
+                            time_, i + 1, blocks.position[i].x(), blocks.position[i].y()));
 }
 
 void Simulation::find_awake() {
@@ -208,7 +217,8 @@ void Simulation::find_active() {
     for (std::uint32_t k = 0; k < pair_list_.keys().size(); ++k) {
         const PairList::Key& key = pair_list_.keys()[k];
         if (!key.has_candidates) continue;
-        if (is_awake_[key.block] || (pair_list_.is_block(key.partner) && is_awake_[key.partner])) active_.push_back(k);
+        if (is_awake_[key.block] || (pair_list_.is_block(key.partner) && is_awake_[key.partner]))
+            active_.push_back(k);
     }
 }
 

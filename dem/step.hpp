@@ -15,19 +15,20 @@ namespace dem {
 
 /// How the run steps.
 struct StepRules {
-    double time_step = 1e-4;       ///< largest, s; steps are equal between two outputs
-    double flow_interval = 2e-3;   ///< between samples of the water and looks for sleepers, s
-    double skin = 0.0012;          ///< of the sphere pairs, m
-    double overlap_noted = 4e-4;   ///< deeper contacts are counted, m
-    double overlap_limit = 4e-3;   ///< deeper contacts stop the run, m
+    double time_step = 1e-4;                ///< largest, s; steps are equal between two outputs
+    double flow_interval = 2e-3;            ///< between samples of the water and looks for sleepers, s
+    double skin = 0.0012;                   ///< of the sphere pairs, m
+    double overlap_noted = 4e-4;            ///< deeper contacts are counted, m
+    double overlap_limit = 4e-3;            ///< deeper contacts stop the run, m
+    bool cross_still = true;                ///< while all are asleep, go from look to look without steps
     double element_overlap_allowed = 0.25;  ///< at the start, in element diameters
 };
 
 /// Energies of the whole, J. The sum `balance` stays at its first value but for errors of the time step.
 struct EnergyBudget {
     double kinetic = 0, potential = 0, contacts = 0, wires = 0;  ///< stored
-    double dissipated = 0;                                       ///< in contacts, broken wires and by falling asleep
-    double water_work = 0, gross_water_work = 0;                 ///< put in by the water (buoyancy included)
+    double dissipated = 0;                        ///< in contacts, broken wires and by falling asleep
+    double water_work = 0, gross_water_work = 0;  ///< put in by the water (buoyancy included)
 
     double balance() const { return kinetic + potential + contacts + wires + dissipated - water_work; }
 };
@@ -35,8 +36,8 @@ struct EnergyBudget {
 /// All that moves and all that moves it.
 class Simulation {
  public:
-    Simulation(Blocks blocks, Surroundings surroundings, std::unique_ptr<ContactModel> contact_model, Vector gravity,
-               StepRules rules);
+    Simulation(Blocks blocks, Surroundings surroundings, std::unique_ptr<ContactModel> contact_model,
+               Vector gravity, StepRules rules);
     Simulation(const Simulation&) = delete;
     Simulation& operator=(const Simulation&) = delete;
 
@@ -48,7 +49,8 @@ class Simulation {
 
     /// Forces at the present poses, before the first step. Contact histories stay as they are.
     void start(double t);
-    /// Goes on to time `target` in equal steps. Throws common::RunError when overlaps or values go out of bounds.
+    /// Goes on to time `target` in equal steps. Throws common::RunError when overlaps or values go out of
+    /// bounds.
     void advance(double target);
 
     double time() const { return time_; }
@@ -104,7 +106,7 @@ class Simulation {
     std::vector<std::uint32_t> movable_, awake_;  ///< blocks
     std::vector<std::uint8_t> is_awake_;
     std::vector<Vector> damping_force_, damping_torque_;  ///< the dashpots' share of the sums
-    std::vector<std::uint32_t> active_;  ///< pairs that may touch, with a block awake
+    std::vector<std::uint32_t> active_;                   ///< pairs that may touch, with a block awake
     double time_ = 0, dissipated_ = 0, largest_overlap_ = 0;
     std::uint64_t steps_ = 0, awake_block_steps_ = 0, deep_contact_steps_ = 0;
 };

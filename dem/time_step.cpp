@@ -1,8 +1,9 @@
 /// The largest stable time step at the present contacts.
 ///
-/// For each block the springs and dashpots of its contacts and wires make a 6 x 6 stiffness and a 6 x 6 damping matrix. With the
-/// largest eigenvalues k and c of either over the mass matrix (doubled where the partner moves as well, the bound
-/// of Gershgorin), velocity Verlet with velocities half a step back is stable while k dt^2 + 2 c dt < 4.
+/// For each block the springs and dashpots of its contacts and wires make a 6 x 6 stiffness and a 6 x 6
+/// damping matrix. With the largest eigenvalues k and c of either over the mass matrix (doubled where the
+/// partner moves as well, the bound of Gershgorin), velocity Verlet with velocities half a step back is
+/// stable while k dt^2 + 2 c dt < 4.
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
@@ -19,8 +20,8 @@ double largest_eigenvalue(const Matrix6& matrix) {
     return Eigen::SelfAdjointEigenSolver<Matrix6>(matrix, Eigen::EigenvaluesOnly).eigenvalues()[5];
 }
 
-/// Adds value * J^T P J, with J the 3 x 6 map from the block's (scaled) velocities to the contact point and P = n n^T scaled by
-/// `normal` plus (1 - n n^T) scaled by `tangential`.
+/// Adds value * J^T P J, with J the 3 x 6 map from the block's (scaled) velocities to the contact point and P
+/// = n n^T scaled by `normal` plus (1 - n n^T) scaled by `tangential`.
 void add_spring(Matrix6& matrix, const Vector& arm, const Vector& direction, double normal, double tangential,
                 double inverse_root_mass, const Rotation& inverse_root_inertia) {
     Eigen::Matrix<double, 3, 6> map;
@@ -49,29 +50,35 @@ double Simulation::stable_time_step() const {
             if (pair.contacts.empty()) continue;
             any = true;
             const bool is_partner = (entry & 1) != 0;
-            const bool both_move = pair_list_.is_block(pair.partner) && !blocks.is_fixed[pair.partner] && !blocks.is_fixed[pair.block];
+            const bool both_move = pair_list_.is_block(pair.partner) && !blocks.is_fixed[pair.partner] &&
+                                   !blocks.is_fixed[pair.block];
             const double share = both_move ? 2 : 1;
             double inverse = blocks.is_fixed[pair.block] ? 0 : 1 / blocks.mass(pair.block);
-            if (pair_list_.is_block(pair.partner) && !blocks.is_fixed[pair.partner]) inverse += 1 / blocks.mass(pair.partner);
+            if (pair_list_.is_block(pair.partner) && !blocks.is_fixed[pair.partner])
+                inverse += 1 / blocks.mass(pair.partner);
             for (const auto& contact : pair.contacts) {
                 const Vector arm = blocks.arm(i, is_partner ? contact.b : contact.a);
                 // The direction of the contact hardly matters to the bound: arms and spheres suffice.
                 Vector direction = Vector::UnitZ();
                 if (pair_list_.is_block(pair.partner)) {
-                    Vector between = blocks.sphere_centre(pair.partner, contact.b) - blocks.sphere_centre(pair.block, contact.a);
+                    Vector between = blocks.sphere_centre(pair.partner, contact.b) -
+                                     blocks.sphere_centre(pair.block, contact.a);
                     between.y() += pair.image * surroundings_.period;
                     direction = between.normalized();
                 } else if (pair_list_.is_fixed_spheres(pair.partner)) {
-                    Vector between = surroundings_.fixed_spheres.centre(contact.b) - blocks.sphere_centre(pair.block, contact.a);
+                    Vector between = surroundings_.fixed_spheres.centre(contact.b) -
+                                     blocks.sphere_centre(pair.block, contact.a);
                     between.y() += pair.image * surroundings_.period;
                     direction = between.normalized();
                 } else {
                     direction = pair_list_.plane(pair.partner).normal;
                 }
                 const double k = share * contact.stiffness, ratio = contact_model_->tangential_ratio();
-                const double c = share * contact_model_->damping_coefficient(1 / inverse, pair.contacts.size(), contact.stiffness);
+                const double c = share * contact_model_->damping_coefficient(
+                                             1 / inverse, pair.contacts.size(), contact.stiffness);
                 add_spring(stiffness, arm, direction, k, ratio * k, inverse_root_mass, inverse_root_inertia);
-                add_spring(damping, arm, direction, c, std::sqrt(ratio) * c, inverse_root_mass, inverse_root_inertia);
+                add_spring(damping, arm, direction, c, std::sqrt(ratio) * c, inverse_root_mass,
+                           inverse_root_inertia);
             }
         }
         for (std::size_t w = 0; w < wires.size(); ++w) {
@@ -81,7 +88,8 @@ double Simulation::stable_time_step() const {
                                       blocks.sphere_centre(wires.block_a[w], wires.sphere_a[w]))
                                          .normalized();
             const Vector arm = blocks.arm(i, wires.block_a[w] == i ? wires.sphere_a[w] : wires.sphere_b[w]);
-            add_spring(stiffness, arm, direction, 2 * wires.stiffness[w], 0, inverse_root_mass, inverse_root_inertia);
+            add_spring(stiffness, arm, direction, 2 * wires.stiffness[w], 0, inverse_root_mass,
+                       inverse_root_inertia);
         }
         if (!any) continue;
         const double k = largest_eigenvalue(stiffness), c = largest_eigenvalue(damping);

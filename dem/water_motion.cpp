@@ -10,7 +10,8 @@ bool is_uniform(const std::vector<double>& axis) {
     const double spacing = (axis.back() - axis.front()) / static_cast<double>(axis.size() - 1);
     for (std::size_t i = 0; i < axis.size(); ++i)
         // Axes are stored as computed; a millionth of the spacing is far above their rounding.
-        if (std::abs(axis[i] - axis.front() - static_cast<double>(i) * spacing) > 1e-4 * spacing) return false;
+        if (std::abs(axis[i] - axis.front() - static_cast<double>(i) * spacing) > 1e-4 * spacing)
+            return false;
     return spacing > 0;
 }
 
@@ -36,18 +37,23 @@ void FlowGrid::set_time(double t) {
     const std::size_t k = time.size() > 1 ? static_cast<std::size_t>(right - time.begin()) - 1 : 0;
     const std::size_t next = std::min(k + 1, time.size() - 1);
     const double share = next > k ? std::clamp((t - time[k]) / (time[next] - time[k]), 0.0, 1.0) : 0.0;
-    const float *before = history_.values.data() + k * now_.size(), *after = history_.values.data() + next * now_.size();
+    const float *before = history_.values.data() + k * now_.size(),
+                *after = history_.values.data() + next * now_.size();
     for (std::size_t i = 0; i < now_.size(); ++i)
         now_[i] = (1 - share) * static_cast<double>(before[i]) + share * static_cast<double>(after[i]);
 }
 
 WaterSample FlowGrid::at(const Vector& point) const {
-    const double across = (point.x() - origin_x_) * per_spacing_x_, up = (point.z() - origin_z_) * per_spacing_z_;
-    if (!(across >= 0 && up >= 0 && across <= static_cast<double>(count_x_ - 1) && up <= static_cast<double>(count_z_ - 1))) {
+    const double across = (point.x() - origin_x_) * per_spacing_x_,
+                 up = (point.z() - origin_z_) * per_spacing_z_;
+    if (!(across >= 0 && up >= 0 && across <= static_cast<double>(count_x_ - 1) &&
+          up <= static_cast<double>(count_z_ - 1))) {
         if (still_outside_) return {Vector(0, 0, 0), Vector(0, 0, 0), point.z() < 0 ? 1.0 : 0.0};
-        throw std::out_of_range(fmt::format("x = {:.4f} m, z = {:.4f} m is outside the flow grid (x {:.4f} to {:.4f} m, z {:.4f} to {:.4f} m)",
-                                            point.x(), point.z(), history_.x.front(), history_.x.back(),
-                                            history_.z.front(), history_.z.back()));
+        throw std::out_of_range(
+            fmt::format("x = {:.4f} m, z = {:.4f} m is outside the flow grid (x {:.4f} to {:.4f} m, z {:.4f} "
+                        "to {:.4f} m)",
+                        point.x(), point.z(), history_.x.front(), history_.x.back(), history_.z.front(),
+                        history_.z.back()));
     }
     const std::size_t i = std::min(static_cast<std::size_t>(across), count_x_ - 2);
     const std::size_t j = std::min(static_cast<std::size_t>(up), count_z_ - 2);

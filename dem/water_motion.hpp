@@ -1,4 +1,5 @@
-/// How the water moves where blocks are: a grid in x and z from the near field, or still water or a uniform current.
+/// How the water moves where blocks are: a grid in x and z from the near field, or still water or a uniform
+/// current.
 #pragma once
 
 #include <algorithm>
@@ -46,12 +47,14 @@ class FlowGrid {
     FlowGrid() = default;
     explicit FlowGrid(FlowHistory history, bool still_outside = false);
 
-    /// Interpolates the grid to time t, which must lie within the history (a rounding error outside is inside).
+    /// Interpolates the grid to time t, which must lie within the history (a rounding error outside is
+    /// inside).
     void set_time(double t);
     double begin() const { return history_.time.front(); }
     double end() const { return history_.time.back(); }
     bool covers(double x, double z) const {
-        return x >= history_.x.front() && x <= history_.x.back() && z >= history_.z.front() && z <= history_.z.back();
+        return x >= history_.x.front() && x <= history_.x.back() && z >= history_.z.front() &&
+               z <= history_.z.back();
     }
     const FlowHistory& history() const { return history_; }
 

@@ -11,14 +11,18 @@ using common::real64;
 
 namespace {
 
-void append(std::vector<double>& values, const Vector& v) { values.insert(values.end(), v.data(), v.data() + 3); }
+void append(std::vector<double>& values, const Vector& v) {
+    values.insert(values.end(), v.data(), v.data() + 3);
+}
 
 /// Orientation of the shape as its file describes it.
 Quaternion file_orientation(const Blocks& blocks, std::size_t block, const Quaternion& body) {
     return body * blocks.shape_of(block).body_from_file;
 }
 
-void append(std::vector<double>& values, const Quaternion& q) { values.insert(values.end(), {q.w(), q.x(), q.y(), q.z()}); }
+void append(std::vector<double>& values, const Quaternion& q) {
+    values.insert(values.end(), {q.w(), q.x(), q.y(), q.z()});
+}
 
 }  // namespace
 
@@ -46,7 +50,8 @@ void WindowOutput::record(const Simulation& simulation, const PackedPoses& packe
     }
     tension_range_.insert(tension_range_.end(), {least, most});
     const EnergyBudget energy = simulation.energy();
-    energy_.insert(energy_.end(), {energy.kinetic, energy.potential, energy.contacts, energy.wires, energy.dissipated, energy.water_work});
+    energy_.insert(energy_.end(), {energy.kinetic, energy.potential, energy.contacts, energy.wires,
+                                   energy.dissipated, energy.water_work});
     asleep_.push_back(static_cast<std::int32_t>(simulation.asleep_count()));
 }
 
@@ -72,7 +77,8 @@ common::Window WindowOutput::take(std::int64_t index) {
     return window;
 }
 
-common::DataFile geometry_of(const Simulation& simulation, const PackedPoses& packed, const std::string& placement) {
+common::DataFile geometry_of(const Simulation& simulation, const PackedPoses& packed,
+                             const std::string& placement) {
     common::DataFile file;
     file.attributes["placement_digest"] = placement;
     const Blocks& blocks = simulation.blocks;
@@ -100,14 +106,16 @@ common::DataFile geometry_of(const Simulation& simulation, const PackedPoses& pa
     file.datasets["/packed/orientation"] = real64("-", {nb, 4}, flat(packed.orientation));
     file.datasets["/packed/file_orientation"] = real64("-", {nb, 4}, std::move(orientation));
     const auto& fixed_spheres = simulation.surroundings().fixed_spheres;
-    file.datasets["/mound/spheres"] = real32("m", {fixed_spheres.size(), 3}, std::span<const double>(flat(fixed_spheres.centres())));
+    file.datasets["/mound/spheres"] =
+        real32("m", {fixed_spheres.size(), 3}, std::span<const double>(flat(fixed_spheres.centres())));
     file.datasets["/mound/diameter"] = real64("m", {1}, {fixed_spheres.diameter()});
     std::vector<double> planes;
     for (const auto& plane : simulation.surroundings().planes) {
         append(planes, plane.point);
         append(planes, plane.normal);
     }
-    file.datasets["/planes"] = real64("m, -", {simulation.surroundings().planes.size(), 6}, std::move(planes));
+    file.datasets["/planes"] =
+        real64("m, -", {simulation.surroundings().planes.size(), 6}, std::move(planes));
     const Wires& wires = simulation.wires;
     std::vector<std::int32_t> ends;
     for (std::size_t k = 0; k < wires.size(); ++k)

@@ -19,12 +19,14 @@ class WindowOutput {
 
  private:
     std::size_t blocks_ = 0, wires_ = 0;
-    std::vector<double> time_, position_, orientation_, velocity_, angular_velocity_, displacement_, tension_, energy_,
-        tension_range_;
+    std::vector<double> time_, position_, orientation_, velocity_, angular_velocity_, displacement_, tension_,
+        energy_, tension_range_;
     std::vector<std::int32_t> intact_, asleep_;
 };
 
-/// What does not change: sphere positions of the shapes, mound and other fixed spheres, planes, packed poses, wires.
-common::DataFile geometry_of(const Simulation& simulation, const PackedPoses& packed, const std::string& placement);
+/// What does not change: sphere positions of the shapes, mound and other fixed spheres, planes, packed poses,
+/// wires.
+common::DataFile geometry_of(const Simulation& simulation, const PackedPoses& packed,
+                             const std::string& placement);
 
 }  // namespace dem

@@ -24,11 +24,13 @@ FluidLoad sample_fluid_load(const Blocks& blocks, std::size_t block, const Motio
         const Vector arm = blocks.rotation[block] * sphere;
         const WaterSample sample = motion.at(blocks.position[block] + arm);
         if (sample.wet <= 0) continue;
-        const Vector relative = sample.velocity - blocks.velocity[block] - blocks.angular_velocity[block].cross(arm);
+        const Vector relative =
+            sample.velocity - blocks.velocity[block] - blocks.angular_velocity[block].cross(arm);
         const double speed = relative.norm();
         // C_D |u_r| of eq. (12), finite at zero relative speed.
         const double slope = drag * sample.wet * (0.4 * speed + viscous);
-        const Vector force = slope * relative + sample.wet * (inertia * sample.acceleration + buoyancy);  // (10), (11)
+        const Vector force =
+            slope * relative + sample.wet * (inertia * sample.acceleration + buoyancy);  // (10), (11)
         load.force += force;
         load.torque += arm.cross(force);
         load.wet += sample.wet;

@@ -1,8 +1,9 @@
 /// Force of the water on blocks, eqs. (10)-(12): drag, fluid acceleration with added mass, and buoyancy.
 ///
-/// F_f of eq. (10) is unreadable in the scan of the paper; the form here is the one Gotoh's group uses throughout its
-/// movable-bed work. The water changes over 1e-2 s, contacts over 1e-4 s: every sphere is sampled at an interval of its own,
-/// and in between the force follows the block's velocity to first order (the Jacobian of the drag).
+/// F_f of eq. (10) is unreadable in the scan of the paper; the form here is the one Gotoh's group uses
+/// throughout its movable-bed work. The water changes over 1e-2 s, contacts over 1e-4 s: every sphere is
+/// sampled at an interval of its own, and in between the force follows the block's velocity to first order
+/// (the Jacobian of the drag).
 #pragma once
 
 #include <memory>
@@ -16,12 +17,12 @@ namespace dem {
 
 /// Sum of the water's force on one block, and how it changes with the block's velocity.
 struct FluidLoad {
-    Vector force;       ///< N
-    Vector torque;      ///< about the block's centre, N m
-    Rotation drag_slope;///< -dF/d(velocity), kg/s
-    Vector velocity;    ///< of the block when sampled, m/s
-    double wet;         ///< mean over the block's spheres
-    double water_speed; ///< mean over the block's wet spheres, m/s
+    Vector force;         ///< N
+    Vector torque;        ///< about the block's centre, N m
+    Rotation drag_slope;  ///< -dF/d(velocity), kg/s
+    Vector velocity;      ///< of the block when sampled, m/s
+    double wet;           ///< mean over the block's spheres
+    double water_speed;   ///< mean over the block's wet spheres, m/s
 
     Vector force_at(const Vector& present_velocity) const {
         return force - drag_slope * (present_velocity - velocity);
@@ -40,7 +41,8 @@ template <class Motion>
 FluidLoad sample_fluid_load(const Blocks& blocks, std::size_t block, const Motion& motion,
                             const FluidProperties& properties);
 
-/// Moving mass over dry mass of a block with wet fraction `wet`: (s + C_M wet) / s for a block of plain elements, eq. (8).
+/// Moving mass over dry mass of a block with wet fraction `wet`: (s + C_M wet) / s for a block of plain
+/// elements, eq. (8).
 double mass_ratio(const Shape& shape, double wet, const FluidProperties& properties);
 
 }  // namespace dem

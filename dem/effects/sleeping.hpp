@@ -1,8 +1,9 @@
 /// Blocks that rest and are not pushed are asleep: their contacts, forces and integration are skipped.
 ///
-/// A block falls asleep when no point of it has moved more than a small distance over a while, and the load on it has hardly
-/// changed. It wakes when the sum of all that acts on it (water, wires, neighbours that still move) has changed
-/// by more than a stated share of its weight: displacement and load are judged, never speed alone.
+/// A block falls asleep when no point of it has moved more than a small distance over a while, and the load
+/// on it has hardly changed. It wakes when the sum of all that acts on it (water, wires, neighbours that
+/// still move) has changed by more than a stated share of its weight: displacement and load are judged, never
+/// speed alone.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +14,18 @@
 namespace dem {
 
 struct SleepRules {
-    double rest_time = 0.1;          ///< s a block must rest before it sleeps
-    double rest_displacement = 8e-7; ///< m, farthest point, over rest_time
-    double wake_load = 0.05;         ///< change of load that wakes, in submerged weights
+    double rest_time = 0.1;           ///< s a block must rest before it sleeps
+    double rest_displacement = 8e-7;  ///< m, farthest point, over rest_time
+    double wake_load = 0.05;          ///< change of load that wakes, in submerged weights
 };
 
 class Sleeping {
  public:
     Sleeping(const Blocks& blocks, const SleepRules& rules, const std::vector<double>& weights);
 
-    /// Looks at all blocks at time t; blocks.force and blocks.torque must hold the present sums of all of them.
-    /// Blocks that fall asleep lose their velocity; returns the kinetic energy so lost (J). `changed`: someone woke or slept.
+    /// Looks at all blocks at time t; blocks.force and blocks.torque must hold the present sums of all of
+    /// them. Blocks that fall asleep lose their velocity; returns the kinetic energy so lost (J). `changed`:
+    /// someone woke or slept.
     double look(Blocks& blocks, double t, bool& changed);
 
     bool is_asleep(std::size_t block) const { return asleep_[block] != 0; }
@@ -45,7 +47,7 @@ class Sleeping {
     void drop_anchor(const Blocks& blocks, std::size_t block, double t);
     bool load_changed(const Blocks& blocks, std::size_t block, double share) const;
     SleepRules rules_;
-    std::vector<double> weight_;           // submerged, N
+    std::vector<double> weight_;  // submerged, N
     std::vector<std::uint8_t> asleep_;
     std::vector<Vector> position_, force_, torque_;  // when the block last came to rest or fell asleep
     std::vector<Quaternion> orientation_;

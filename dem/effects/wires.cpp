@@ -6,8 +6,8 @@
 
 namespace dem {
 
-void Wires::add(std::uint32_t a, std::uint32_t sphere_of_a, std::uint32_t b, std::uint32_t sphere_of_b, double r0,
-                double k_n) {
+void Wires::add(std::uint32_t a, std::uint32_t sphere_of_a, std::uint32_t b, std::uint32_t sphere_of_b,
+                double r0, double k_n) {
     block_a.push_back(a);
     sphere_a.push_back(sphere_of_a);
     block_b.push_back(b);
@@ -36,7 +36,8 @@ double Wires::energy_at(std::size_t wire, double r) const {
 }
 
 double Wires::length(const Blocks& blocks, std::size_t wire) const {
-    return (blocks.sphere_centre(block_b[wire], sphere_b[wire]) - blocks.sphere_centre(block_a[wire], sphere_a[wire]))
+    return (blocks.sphere_centre(block_b[wire], sphere_b[wire]) -
+            blocks.sphere_centre(block_a[wire], sphere_a[wire]))
         .norm();
 }
 

@@ -18,22 +18,23 @@ enum class WireLaw {
 /// One wire per entry.
 struct Wires {
     WireLaw law = WireLaw::hooke;
-    double longest_stretch = 0;                ///< psi d, m; infinite: wires do not break
+    double longest_stretch = 0;  ///< psi d, m; infinite: wires do not break
     std::vector<std::uint32_t> block_a, sphere_a, block_b, sphere_b;
-    std::vector<double> rest_length;           ///< r0, m
-    std::vector<double> stiffness;             ///< k_n, N/m
+    std::vector<double> rest_length;  ///< r0, m
+    std::vector<double> stiffness;    ///< k_n, N/m
     std::vector<std::uint8_t> is_intact;
-    std::vector<double> tension;               ///< at the last step, N
-    std::vector<double> broken_at;             ///< s; -1 while intact
-    std::vector<double> largest_tension;       ///< so far, N
-    double energy_of_broken = 0;               ///< elastic energy lost when wires broke, J
+    std::vector<double> tension;          ///< at the last step, N
+    std::vector<double> broken_at;        ///< s; -1 while intact
+    std::vector<double> largest_tension;  ///< so far, N
+    double energy_of_broken = 0;          ///< elastic energy lost when wires broke, J
 
     std::size_t size() const { return block_a.size(); }
-    void add(std::uint32_t a, std::uint32_t sphere_of_a, std::uint32_t b, std::uint32_t sphere_of_b, double r0,
-             double k_n);
-    /// Adds forces and torques of the intact ones among `which` to those blocks that are wanted, in order of wires; breaks
-    /// those longer than r0 + psi d at time t.
-    void pull(Blocks& blocks, double t, const std::vector<std::uint32_t>& which, const std::vector<std::uint8_t>& is_wanted);
+    void add(std::uint32_t a, std::uint32_t sphere_of_a, std::uint32_t b, std::uint32_t sphere_of_b,
+             double r0, double k_n);
+    /// Adds forces and torques of the intact ones among `which` to those blocks that are wanted, in order of
+    /// wires; breaks those longer than r0 + psi d at time t.
+    void pull(Blocks& blocks, double t, const std::vector<std::uint32_t>& which,
+              const std::vector<std::uint8_t>& is_wanted);
     /// The same for all wires and blocks.
     void pull(Blocks& blocks, double t);
     /// Elastic energy of the intact ones at their present length, J.

@@ -35,13 +35,16 @@ struct World {
         blocks.shapes.push_back(dem::make_shape(dem::find_shape(name, "."), element, water.density));
         return static_cast<int>(blocks.shapes.size()) - 1;
     }
-    void add(const std::string& name, const dem::Vector& at, const dem::Vector& velocity = dem::Vector::Zero(), bool fixed = false,
-             const dem::Quaternion& turned = dem::Quaternion::Identity(), const dem::Vector& spin = dem::Vector::Zero()) {
+    void add(const std::string& name, const dem::Vector& at,
+             const dem::Vector& velocity = dem::Vector::Zero(), bool fixed = false,
+             const dem::Quaternion& turned = dem::Quaternion::Identity(),
+             const dem::Vector& spin = dem::Vector::Zero()) {
         blocks.add(shape(name), at, turned, fixed, velocity, spin);
     }
     std::unique_ptr<dem::Simulation> build() const {
         auto simulation = std::make_unique<dem::Simulation>(
-            blocks, surroundings, dem::make_contact_model(law, material, element.diameter, 0.01 * element.diameter), gravity,
+            blocks, surroundings,
+            dem::make_contact_model(law, material, element.diameter, 0.01 * element.diameter), gravity,
             dem::StepRules{.time_step = time_step, .flow_interval = flow_interval});
         if (wet) simulation->add_water({.water = water, .element = element, .gravity = gravity}, motion);
         return simulation;

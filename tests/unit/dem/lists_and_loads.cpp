@@ -1,4 +1,5 @@
-/// Pair lists against brute force, layouts, water motion, sleeping, snapshots, same bits on any number of threads.
+/// Pair lists against brute force, layouts, water motion, sleeping, snapshots, same bits on any number of
+/// threads.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -25,8 +26,10 @@ World heap(int count, unsigned seed, double period = 0) {
     std::uniform_real_distribution<double> place(0, 0.2), turn(-1, 1);
     const char* names[] = {"beehive96", "tetrapod", "cube27", "sphere"};
     for (int k = 0; k < count; ++k)
-        world.add(names[k % 4], Vector(place(random), place(random), 0.05 + 0.06 * k / 4.0), Vector(turn(random), turn(random), turn(random)) * 0.3,
-                  false, Quaternion(turn(random), turn(random), turn(random), turn(random)).normalized(), Vector(turn(random), turn(random), turn(random)) * 5);
+        world.add(names[k % 4], Vector(place(random), place(random), 0.05 + 0.06 * k / 4.0),
+                  Vector(turn(random), turn(random), turn(random)) * 0.3, false,
+                  Quaternion(turn(random), turn(random), turn(random), turn(random)).normalized(),
+                  Vector(turn(random), turn(random), turn(random)) * 5);
     std::vector<Vector> floor;
     for (int i = -10; i < 40; ++i)
         for (int j = -10; j < 40; ++j) floor.emplace_back(0.008 * i, 0.008 * j, 0.003 * turn(random));
@@ -54,12 +57,16 @@ Touching touching_by_brute_force(const dem::Blocks& blocks, const dem::Surroundi
                 if ((blocks.position[i] - blocks.position[j]).norm() > 0.12) continue;
                 const auto& b = blocks.shape_of(j);
                 for (std::uint32_t l = 0; l < b.spheres.size(); ++l)
-                    if ((blocks.sphere_centre(j, l) - centre).norm() < 0.5 * (a.diameter + b.diameter)) found.insert({i, j, k, l});
+                    if ((blocks.sphere_centre(j, l) - centre).norm() < 0.5 * (a.diameter + b.diameter))
+                        found.insert({i, j, k, l});
             }
             for (std::uint32_t l = 0; l < around.fixed_spheres.size(); ++l)
-                if ((around.fixed_spheres.centre(l) - centre).norm() < 0.5 * (a.diameter + around.fixed_spheres.diameter())) found.insert({i, count, k, l});
+                if ((around.fixed_spheres.centre(l) - centre).norm() <
+                    0.5 * (a.diameter + around.fixed_spheres.diameter()))
+                    found.insert({i, count, k, l});
             for (std::uint32_t p = 0; p < around.planes.size(); ++p)
-                if ((centre - around.planes[p].point).dot(around.planes[p].normal) < 0.5 * a.diameter) found.insert({i, count + 1 + p, k, 0});
+                if ((centre - around.planes[p].point).dot(around.planes[p].normal) < 0.5 * a.diameter)
+                    found.insert({i, count + 1 + p, k, 0});
         }
     }
     return found;
@@ -74,13 +81,15 @@ TEST(PairList, TouchesWhatBruteForceTouchesAllTheWayDown) {
         simulation->advance(0.01 * k);
         Touching listed;
         for (const auto& pair : simulation->pair_list().pairs())
-            for (const auto& contact : pair.contacts) listed.insert({pair.block, pair.partner, contact.a, contact.b});
+            for (const auto& contact : pair.contacts)
+                listed.insert({pair.block, pair.partner, contact.a, contact.b});
         const Touching expected = touching_by_brute_force(simulation->blocks, simulation->surroundings());
         // Spheres inside a clump are not listed: what brute force finds beyond the list must be such.
         for (const auto& touch : listed) EXPECT_TRUE(expected.contains(touch));
         for (const auto& touch : expected) {
             const auto& exposed = simulation->blocks.shape_of(touch[0]).exposed;
-            const bool inner = std::find(exposed.begin(), exposed.end(), static_cast<int>(touch[2])) == exposed.end();
+            const bool inner =
+                std::find(exposed.begin(), exposed.end(), static_cast<int>(touch[2])) == exposed.end();
             EXPECT_TRUE(inner || listed.contains(touch)) << touch[0] << ' ' << touch[1];
         }
         seen += expected.size();
@@ -92,8 +101,9 @@ TEST(PairList, ResultsDoNotDependOnTheSkin) {
     const World world = heap(12, 11);
     std::vector<Vector> first;
     for (const double skin : {0.0004, 0.0012, 0.0018}) {
-        dem::Simulation simulation(world.blocks, world.surroundings, dem::make_contact_model(world.law, world.material, 0.008, 8e-5), world.gravity,
-                                   {.time_step = 1e-4, .skin = skin});
+        dem::Simulation simulation(world.blocks, world.surroundings,
+                                   dem::make_contact_model(world.law, world.material, 0.008, 8e-5),
+                                   world.gravity, {.time_step = 1e-4, .skin = skin});
         simulation.start(0);
         simulation.advance(0.4);
         if (first.empty()) first = simulation.blocks.position;
@@ -127,7 +137,8 @@ TEST(Simulation, SameBitsForOneAndTwoThreads) {
         for (int i = 0; i < 14; ++i)
             for (int j = 0; j < 14; ++j)
                 for (int k = 0; k < 4; ++k)
-                    world.add("cube27", Vector(0.0239 * i, 0.0239 * j, 0.0239 * k + 0.013), Vector(0.1 * (i % 3 - 1), 0.1 * (j % 2), 0));
+                    world.add("cube27", Vector(0.0239 * i, 0.0239 * j, 0.0239 * k + 0.013),
+                              Vector(0.1 * (i % 3 - 1), 0.1 * (j % 2), 0));
         world.surroundings.planes.push_back({Vector(0, 0, 0), Vector(0, 0, 1)});
         world.gravity = Vector(0, 0, -9.81);
         world.time_step = 5e-5;
@@ -159,7 +170,8 @@ TEST(Snapshot, GoesOnBitForBitThroughItsFileForm) {
     whole->start(0);
     whole->advance(0.3);
     const dem::PackedPoses packed = dem::poses_of(whole->blocks);
-    const dem::Snapshot saved = dem::snapshot_from(dem::to_data_file(dem::take_snapshot(*whole, packed, "digest")));
+    const dem::Snapshot saved =
+        dem::snapshot_from(dem::to_data_file(dem::take_snapshot(*whole, packed, "digest")));
     whole->advance(0.6);
 
     const auto later = build();
@@ -177,14 +189,24 @@ TEST(Layout, FacingSidesArePairedAcrossTheGap) {
     world.add("beehive96", Vector(0, 0, 0));
     world.add("beehive96", Vector(0, 0.05, 0));
     world.add("beehive96", Vector(-0.05, 0, 0));
-    const auto along = dem::facing_spheres(world.blocks, 0, 1), across = dem::facing_spheres(world.blocks, 0, 2);
+    const auto along = dem::facing_spheres(world.blocks, 0, 1),
+               across = dem::facing_spheres(world.blocks, 0, 2);
     EXPECT_EQ(along.size(), 18u);
     EXPECT_EQ(across.size(), 18u);
     for (const auto& place : along) {
-        const Vector between = world.blocks.sphere_centre(place.block_b, place.sphere_b) - world.blocks.sphere_centre(place.block_a, place.sphere_a);
+        const Vector between = world.blocks.sphere_centre(place.block_b, place.sphere_b) -
+                               world.blocks.sphere_centre(place.block_a, place.sphere_a);
         EXPECT_LT((between - Vector(0, 0.01, 0)).norm(), 1e-12);
     }
-    EXPECT_EQ(dem::wires_of(world.blocks, {.block_a = 0, .block_b = 1, .spheres = {}, .wires = 5, .rest_length = {}, .slack = 0, .stiffness = {}}).size(), 5u);
+    EXPECT_EQ(dem::wires_of(world.blocks, {.block_a = 0,
+                                           .block_b = 1,
+                                           .spheres = {},
+                                           .wires = 5,
+                                           .rest_length = {},
+                                           .slack = 0,
+                                           .stiffness = {}})
+                  .size(),
+              5u);
 }
 
 /// u = 1 + 2x - z, w = x z, at t; bilinear and linear in time, so that interpolation is exact.
@@ -196,7 +218,8 @@ dem::FlowHistory linear_flow() {
     for (const double t : history.time)
         for (const double z : history.z)
             for (const double x : history.x)
-                for (const double value : {(1 + 2 * x - z) * t, x * z * t, t, -t, 0.5}) history.values.push_back(static_cast<float>(value));
+                for (const double value : {(1 + 2 * x - z) * t, x * z * t, t, -t, 0.5})
+                    history.values.push_back(static_cast<float>(value));
     return history;
 }
 

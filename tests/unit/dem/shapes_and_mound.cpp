@@ -14,7 +14,9 @@ namespace {
 
 using dem::Vector;
 
-dem::Shape built_in(const std::string& name) { return dem::make_shape(dem::find_shape(name, "."), dem::Element{}, 1000); }
+dem::Shape built_in(const std::string& name) {
+    return dem::make_shape(dem::find_shape(name, "."), dem::Element{}, 1000);
+}
 
 TEST(Shape, BeehiveHasThePapersMassAndOutline) {
     const dem::Shape shape = built_in("beehive96");
@@ -70,28 +72,35 @@ TEST(Shape, RefusesWhatIsNoShape) {
 }
 
 TEST(Mound, ColumnHeightsHaveTheMeanAndSpreadAskedFor) {
-    const auto centres = dem::build_mound({.profile = {{0, -0.2}, {1, -0.2}}, .y_begin = 0, .y_end = 1, .roughness = 0.008, .seed = 3});
+    const auto centres = dem::build_mound(
+        {.profile = {{0, -0.2}, {1, -0.2}}, .y_begin = 0, .y_end = 1, .roughness = 0.008, .seed = 3});
     std::map<std::pair<long, long>, double> top;
     for (const auto& c : centres) {
-        auto& height = top.try_emplace({std::lround(c.x() * 1e6), std::lround(c.y() * 1e6)}, -1e9).first->second;
+        auto& height =
+            top.try_emplace({std::lround(c.x() * 1e6), std::lround(c.y() * 1e6)}, -1e9).first->second;
         height = std::max(height, c.z() + 0.004);
     }
     EXPECT_EQ(top.size(), 125u * 125u);
     double mean = 0, square = 0;
     for (const auto& [place, height] : top) mean += height / static_cast<double>(top.size());
-    for (const auto& [place, height] : top) square += (height - mean) * (height - mean) / static_cast<double>(top.size());
+    for (const auto& [place, height] : top)
+        square += (height - mean) * (height - mean) / static_cast<double>(top.size());
     // Standard errors over 15625 columns: sigma / 125, and sigma / 177; four of them.
     EXPECT_NEAR(mean, -0.2, 4 * 0.008 / 125);
     EXPECT_NEAR(std::sqrt(square), 0.008, 4 * 0.008 / 177);
 }
 
 TEST(Mound, NoHoleLetsASphereThrough) {
-    const auto centres = dem::build_mound({.profile = {{0, 0}, {0.2, 0}}, .y_begin = 0, .y_end = 0.2, .roughness = 0.016, .seed = 7});
+    const auto centres = dem::build_mound(
+        {.profile = {{0, 0}, {0.2, 0}}, .y_begin = 0, .y_end = 0.2, .roughness = 0.016, .seed = 7});
     const dem::FixedSpheres mound(centres, 0.008, 0.009);
     // A visitor that stands on a column meets the flanks of its neighbours, which reach down to it.
     std::map<std::pair<long, long>, std::pair<double, double>> column;  // lowest, highest centre
     for (const auto& c : centres) {
-        auto& [low, high] = column.try_emplace({std::lround(c.x() / 0.008 - 0.5), std::lround(c.y() / 0.008 - 0.5)}, 1e9, -1e9).first->second;
+        auto& [low, high] =
+            column
+                .try_emplace({std::lround(c.x() / 0.008 - 0.5), std::lround(c.y() / 0.008 - 0.5)}, 1e9, -1e9)
+                .first->second;
         low = std::min(low, c.z());
         high = std::max(high, c.z());
     }
@@ -101,7 +110,8 @@ TEST(Mound, NoHoleLetsASphereThrough) {
                 const auto other = column.find({place.first + dx, place.second + dy});
                 // The lowest sphere of a column overlaps the height of its lower neighbours' tops.
                 if (other != column.end()) {
-                    EXPECT_LE(range.first - 0.004, std::min(range.second, other->second.second) + 0.004 + 1e-12);
+                    EXPECT_LE(range.first - 0.004,
+                              std::min(range.second, other->second.second) + 0.004 + 1e-12);
                 }
             }
 }
@@ -123,12 +133,23 @@ TEST(FixedSpheres, FindsWhatBruteForceFinds) {
 }
 
 TEST(Placement, BlocksStartJustAboveTheMound) {
-    const auto centres = dem::build_mound({.profile = {{0, -0.2}, {0.3, -0.2}}, .y_begin = 0, .y_end = 0.3, .roughness = 0.008, .seed = 1});
+    const auto centres = dem::build_mound(
+        {.profile = {{0, -0.2}, {0.3, -0.2}}, .y_begin = 0, .y_end = 0.3, .roughness = 0.008, .seed = 1});
     dem::Surroundings surroundings;
     surroundings.fixed_spheres = dem::FixedSpheres(centres, 0.008, 0.0095);
     dem::Blocks blocks;
     blocks.shapes.push_back(built_in("beehive96"));
-    dem::place_blocks(blocks, {.shape = 0, .rows = 3, .columns = 4, .layers = 1, .fixed_rows = 0, .origin_x = 0.25, .origin_y = 0.05, .pitch_across = 0.05, .pitch_along = 0.05, .level = {}},
+    dem::place_blocks(blocks,
+                      {.shape = 0,
+                       .rows = 3,
+                       .columns = 4,
+                       .layers = 1,
+                       .fixed_rows = 0,
+                       .origin_x = 0.25,
+                       .origin_y = 0.05,
+                       .pitch_across = 0.05,
+                       .pitch_along = 0.05,
+                       .level = {}},
                       surroundings.fixed_spheres);
     EXPECT_EQ(blocks.size(), 12u);
     EXPECT_EQ(dem::deepest_overlap(blocks, surroundings).depth, 0);

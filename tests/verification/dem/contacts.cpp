@@ -28,7 +28,8 @@ struct Impact {
     double peak_overlap = 0, duration = 0, restitution = 0;
 };
 
-/// Steps through an impact. Peak and duration are read off parabolas through the samples, so that they do not snap to steps.
+/// Steps through an impact. Peak and duration are read off parabolas through the samples, so that they do not
+/// snap to steps.
 Impact run_impact(const World& world) {
     const auto simulation = world.build();
     simulation->start(0);
@@ -42,8 +43,10 @@ Impact run_impact(const World& world) {
             const double curvature = overlap - 2 * last + before, slope = 0.5 * (overlap - before);
             impact.peak_overlap = last - 0.5 * slope * slope / curvature;
         }
-        // Contact begins and ends at zero overlap: where the straight line through the two samples around it crosses.
-        if (last < 0 && overlap >= 0) begin = simulation->time() - world.time_step * overlap / (overlap - last);
+        // Contact begins and ends at zero overlap: where the straight line through the two samples around it
+        // crosses.
+        if (last < 0 && overlap >= 0)
+            begin = simulation->time() - world.time_step * overlap / (overlap - last);
         if (last >= 0 && overlap < 0 && k > 0) {
             end = simulation->time() - world.time_step * overlap / (overlap - last);
             break;
@@ -59,16 +62,19 @@ Impact run_impact(const World& world) {
 TEST(HertzImpact, PeakOverlapAndDurationConvergeWithSecondOrder) {
     World world = two_spheres(1);
     world.material.damping_ratio = 0;
-    const double mass = world.blocks.mass(0) / 2, radius = world.element.diameter / 4, modulus = world.material.contact_modulus();
+    const double mass = world.blocks.mass(0) / 2, radius = world.element.diameter / 4,
+                 modulus = world.material.contact_modulus();
     const double peak = std::pow(15 * mass * speed * speed / (16 * modulus * std::sqrt(radius)), 0.4);
-    const double duration = 4 * std::sqrt(std::numbers::pi) * std::tgamma(0.4) / (5 * std::tgamma(0.9)) * peak / speed;
+    const double duration =
+        4 * std::sqrt(std::numbers::pi) * std::tgamma(0.4) / (5 * std::tgamma(0.9)) * peak / speed;
     double previous_peak = 0, previous_duration = 0;
     for (const double share : {1.0 / 20, 1.0 / 40, 1.0 / 80}) {
         world.time_step = share * duration;
         const Impact impact = run_impact(world);
-        const double peak_error = impact.peak_overlap / peak - 1, duration_error = impact.duration / duration - 1;
-        std::printf("duration / %.0f: peak overlap error %.2e, duration error %.2e, restitution - 1 = %.1e\n", 1 / share, peak_error,
-                    duration_error, impact.restitution - 1);
+        const double peak_error = impact.peak_overlap / peak - 1,
+                     duration_error = impact.duration / duration - 1;
+        std::printf("duration / %.0f: peak overlap error %.2e, duration error %.2e, restitution - 1 = %.1e\n",
+                    1 / share, peak_error, duration_error, impact.restitution - 1);
         if (previous_peak != 0) {
             // Hertz' force has a kink in its second derivative at touch: the order wavers around 2.
             EXPECT_GT(dem_cases::order(previous_peak, peak_error), 1.5);
@@ -77,20 +83,22 @@ TEST(HertzImpact, PeakOverlapAndDurationConvergeWithSecondOrder) {
         previous_peak = peak_error;
         previous_duration = duration_error;
     }
-    // Second order at an eightieth of the duration: (pi / 80)^2 / 24 = 6e-5 for a harmonic one, a few times that for Hertz.
+    // Second order at an eightieth of the duration: (pi / 80)^2 / 24 = 6e-5 for a harmonic one, a few times
+    // that for Hertz.
     EXPECT_LT(std::abs(previous_peak), 5e-4);
     EXPECT_LT(std::abs(previous_duration), 5e-4);
 }
 
 TEST(CriticalDamping, LinearSpringReboundsWithTheSpeedOfTheory) {
-    // x = v t exp(-w t); the force k x + c v turns to tension at w t = 2, where the spheres part with exp(-2) of the speed.
+    // x = v t exp(-w t); the force k x + c v turns to tension at w t = 2, where the spheres part with exp(-2)
+    // of the speed.
     World world = two_spheres(1, dem::ContactLaw::linear);
     for (const double step : {8e-6, 4e-6, 2e-6, 1e-6}) {
         world.time_step = step;
         const double error = run_impact(world).restitution - std::exp(-2.0);
         std::printf("step %.0e s: restitution error %.1e\n", step, error);
-        // Dashpots act on velocities half a step old: first order, w dt / 2 with w = 1.1e4 rad/s, and where in a step the spheres
-        // first touch is a matter of chance of the same size.
+        // Dashpots act on velocities half a step old: first order, w dt / 2 with w = 1.1e4 rad/s, and where
+        // in a step the spheres first touch is a matter of chance of the same size.
         EXPECT_LT(std::abs(error), 1.1e4 * step);
     }
 }
@@ -106,7 +114,8 @@ int damped_hertz(double, const double state[], double derivative[], void*) {
 
 TEST(CriticalDamping, HertzSpringReboundsAsTheOdeSays) {
     gsl_odeiv2_system system{damped_hertz, nullptr, 2, nullptr};
-    gsl_odeiv2_driver* driver = gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, 1e-6, 1e-12, 1e-12);
+    gsl_odeiv2_driver* driver =
+        gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, 1e-6, 1e-12, 1e-12);
     double t = 0, state[2] = {0, 1};
     while (state[0] >= 0 && t < 100) gsl_odeiv2_driver_apply(driver, &t, t + 1e-3, state);
     gsl_odeiv2_driver_free(driver);
@@ -119,7 +128,8 @@ TEST(CriticalDamping, HertzSpringReboundsAsTheOdeSays) {
     EXPECT_LT(measured, std::exp(-2.0));  // and less than the linear spring
 }
 
-/// A block on a plane under gravity tilted by an angle; returns the distance it slides in `seconds` after settling.
+/// A block on a plane under gravity tilted by an angle; returns the distance it slides in `seconds` after
+/// settling.
 struct Slide {
     double distance, acceleration;
 };
@@ -159,8 +169,10 @@ TEST(Incline, BelowTheFrictionAngleNothingCreeps) {
 TEST(Incline, AboveTheFrictionAngleItSlidesWithTheRightAcceleration) {
     for (const double ratio : {1.01, 1.1, 1.5}) {
         const Slide found = slide(ratio, 0.5);
-        const double angle = std::atan(ratio * 0.577), theory = 9.81 * (std::sin(angle) - 0.577 * std::cos(angle));
-        std::printf("tan(angle) = %.2f mu: acceleration error %.2e\n", ratio, found.acceleration / theory - 1);
+        const double angle = std::atan(ratio * 0.577),
+                     theory = 9.81 * (std::sin(angle) - 0.577 * std::cos(angle));
+        std::printf("tan(angle) = %.2f mu: acceleration error %.2e\n", ratio,
+                    found.acceleration / theory - 1);
         EXPECT_NEAR(found.acceleration, theory, 1e-3 * 9.81);  // jitter of the normal force
     }
 }
@@ -168,7 +180,8 @@ TEST(Incline, AboveTheFrictionAngleItSlidesWithTheRightAcceleration) {
 TEST(Contacts, MomentumAndAngularMomentumOfAnIsolatedCollisionAreKept) {
     World world;
     world.time_step = 2e-5;
-    world.add("beehive96", Vector(0, 0, 0), Vector(0.3, 0, 0), false, dem::Quaternion::Identity(), Vector(1, 2, 3));
+    world.add("beehive96", Vector(0, 0, 0), Vector(0.3, 0, 0), false, dem::Quaternion::Identity(),
+              Vector(1, 2, 3));
     world.add("tetrapod", Vector(0.06, 0.01, 0.005), Vector(-0.5, 0, 0));
     const auto simulation = world.build();
     simulation->start(0);
@@ -184,7 +197,7 @@ TEST(Contacts, MomentumAndAngularMomentumOfAnIsolatedCollisionAreKept) {
     const auto [momentum, angular] = sums();
     simulation->advance(0.2);
     EXPECT_GT(simulation->energy().dissipated, 0) << "they must have hit";
-    EXPECT_LT((sums().first - momentum).norm(), 1e-15);   // kg m/s: rounding of 1e4 steps
+    EXPECT_LT((sums().first - momentum).norm(), 1e-15);  // kg m/s: rounding of 1e4 steps
     EXPECT_LT((sums().second - angular).norm(), 1e-15);
 }
 
@@ -195,7 +208,8 @@ TEST(Energy, BudgetOfADampedTumbleClosesWithTheTimeStep) {
         world.time_step = step;
         world.gravity = Vector(0, 0, -9.81);
         world.surroundings.planes.push_back({Vector(0, 0, 0), Vector(0, 0, 1)});
-        world.add("beehive96", Vector(0, 0, 0.08), Vector(0.2, 0, 0), false, dem::Quaternion(Eigen::AngleAxisd(0.5, Vector(1, 2, 0).normalized())));
+        world.add("beehive96", Vector(0, 0, 0.08), Vector(0.2, 0, 0), false,
+                  dem::Quaternion(Eigen::AngleAxisd(0.5, Vector(1, 2, 0).normalized())));
         const auto simulation = world.build();
         simulation->start(0);
         const double first = simulation->energy().balance();

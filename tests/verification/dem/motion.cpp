@@ -1,4 +1,5 @@
-/// Exact answers of motion: free fall in still water, the free rotor, PMS and Newton-Euler, drag of a moving current.
+/// Exact answers of motion: free fall in still water, the free rotor, PMS and Newton-Euler, drag of a moving
+/// current.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,7 +33,8 @@ TEST(FreeFall, StartsWithReducedWeightAndEndsAtTheTerminalSpeed) {
     const double weight = (s - 1) * g * d * 2.0 / 3.0, viscous = 24 * 1e-6 / d;
     const double terminal = (-viscous + std::sqrt(viscous * viscous + 8 * 0.4 * weight)) / (2 * 0.4);
     std::printf("terminal speed error %.1e\n", -simulation->blocks.velocity[0].z() / terminal - 1);
-    EXPECT_NEAR(-simulation->blocks.velocity[0].z(), terminal, 1e-9 * terminal);  // a fixed point: no error of the step
+    EXPECT_NEAR(-simulation->blocks.velocity[0].z(), terminal,
+                1e-9 * terminal);  // a fixed point: no error of the step
 }
 
 /// Position after 0.5 s of fall from rest with drag C_D = 0.4 (nu = 0): (v_t^2 / a) ln cosh(a t / v_t).
@@ -90,7 +92,8 @@ dem::Shape lopsided(const dem::Element& element) {
 TEST(FreeRotor, KeepsEnergyAndAngularMomentumOver1e5Steps) {
     World world;
     world.blocks.shapes.push_back(lopsided(world.element));
-    world.blocks.add(0, Vector(0, 0, 0), Quaternion(0.5, 0.5, -0.5, 0.5), false, Vector::Zero(), Vector(20, 3, -11));
+    world.blocks.add(0, Vector(0, 0, 0), Quaternion(0.5, 0.5, -0.5, 0.5), false, Vector::Zero(),
+                     Vector(20, 3, -11));
     dem::Blocks blocks = world.blocks;
     const Vector momentum = blocks.angular_momentum[0];
     const double energy = blocks.kinetic_energy(0);
@@ -101,7 +104,8 @@ TEST(FreeRotor, KeepsEnergyAndAngularMomentumOver1e5Steps) {
     }
     std::printf("largest energy error %.2e over 1e5 steps of 2.4e-3 rad\n", farthest);
     EXPECT_EQ(blocks.angular_momentum[0], momentum);  // never touched: exact
-    // Symplectic and second order: the error stays at (angle per step)^2 times a number of order one, without drift.
+    // Symplectic and second order: the error stays at (angle per step)^2 times a number of order one, without
+    // drift.
     EXPECT_LT(farthest, 1e-5);
     EXPECT_NEAR(blocks.orientation[0].norm(), 1, 1e-14);
 }
@@ -116,24 +120,28 @@ TEST(FreeRotor, SecondOrderInTheStep) {
         return blocks.orientation[0];
     };
     const Quaternion reference = turned(1.0 / 64000);
-    const double coarse = turned(1.0 / 500).angularDistance(reference), fine = turned(1.0 / 1000).angularDistance(reference);
-    std::printf("orientation error %.2e, %.2e rad after 1 s, order %.2f\n", coarse, fine, dem_cases::order(coarse, fine));
+    const double coarse = turned(1.0 / 500).angularDistance(reference),
+                 fine = turned(1.0 / 1000).angularDistance(reference);
+    std::printf("orientation error %.2e, %.2e rad after 1 s, order %.2f\n", coarse, fine,
+                dem_cases::order(coarse, fine));
     EXPECT_NEAR(dem_cases::order(coarse, fine), 2, 0.1);
 }
 
-/// One step of the paper's way: every sphere moves by itself, then translation and rotation are taken from sums over spheres
-/// (Koshizuka 1998), sphere spins included. Equals Newton-Euler to round-off.
+/// One step of the paper's way: every sphere moves by itself, then translation and rotation are taken from
+/// sums over spheres (Koshizuka 1998), sphere spins included. Equals Newton-Euler to round-off.
 TEST(PassivelyMovingSolid, OneStepEqualsNewtonEuler) {
     World world;
     const int shape = world.shape("beehive96");
-    world.blocks.add(shape, Vector(0.3, -0.2, 0.1), Quaternion(0.8, 0.2, -0.4, 0.4), false, Vector(0.1, 0.3, -0.2), Vector(2, -1, 3));
+    world.blocks.add(shape, Vector(0.3, -0.2, 0.1), Quaternion(0.8, 0.2, -0.4, 0.4), false,
+                     Vector(0.1, 0.3, -0.2), Vector(2, -1, 3));
     dem::Blocks blocks = world.blocks;
     const auto& spheres = blocks.shape_of(0).spheres;
     const double m = blocks.mass(0) / 96, dt = 1e-4, own = 0.4 * m * 0.004 * 0.004;
     std::vector<Vector> force;
     Vector total = Vector::Zero(), torque = Vector::Zero();
     for (std::size_t k = 0; k < spheres.size(); ++k) {
-        force.emplace_back(std::sin(1.0 + 3 * static_cast<double>(k)), std::cos(2.0 * static_cast<double>(k)), std::sin(5.0 * static_cast<double>(k)));
+        force.emplace_back(std::sin(1.0 + 3 * static_cast<double>(k)), std::cos(2.0 * static_cast<double>(k)),
+                           std::sin(5.0 * static_cast<double>(k)));
         total += force[k];
         torque += blocks.arm(0, k).cross(force[k]);
     }
@@ -145,7 +153,8 @@ TEST(PassivelyMovingSolid, OneStepEqualsNewtonEuler) {
         const Vector velocity = blocks.velocity[0] + blocks.angular_velocity[0].cross(r) + dt / m * force[k];
         momentum += m * velocity;
         angular += m * r.cross(velocity) + own * blocks.angular_velocity[0];
-        inertia += m * (r.squaredNorm() * dem::Rotation::Identity() - r * r.transpose()) + own * dem::Rotation::Identity();
+        inertia += m * (r.squaredNorm() * dem::Rotation::Identity() - r * r.transpose()) +
+                   own * dem::Rotation::Identity();
     }
     const Vector projected_velocity = momentum / (96 * m), projected_spin = inertia.inverse() * angular;
     // The rigid body.

@@ -1,4 +1,5 @@
-/// Exact answers of wires, eq. (13): oscillation period, breaking at r_max, a hanging chain, momentum of a wired cluster.
+/// Exact answers of wires, eq. (13): oscillation period, breaking at r_max, a hanging chain, momentum of a
+/// wired cluster.
 #include <gsl/gsl_integration.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +27,8 @@ struct Quadrature {
     double furthest, mass;
 };
 
-/// Half a swing taut: from r0 to `furthest`, dr / v with v from the energy; r = r0 + (far - r0) sin(a) takes the root away.
+/// Half a swing taut: from r0 to `furthest`, dr / v with v from the energy; r = r0 + (far - r0) sin(a) takes
+/// the root away.
 double swing_time(double angle, void* data) {
     const auto& q = *static_cast<Quadrature*>(data);
     const double r0 = q.wires->rest_length[0], span = q.furthest - r0;
@@ -48,7 +50,8 @@ TEST_P(WirePeriod, TautHalfSwingTakesTheTimeOfTheQuadrature) {
     gsl_integration_workspace* workspace = gsl_integration_workspace_alloc(1000);
     gsl_function function{swing_time, &data};
     double theory = 0, error = 0;
-    gsl_integration_qag(&function, 0, std::numbers::pi / 2, 0, 1e-8, 1000, GSL_INTEG_GAUSS21, workspace, &theory, &error);
+    gsl_integration_qag(&function, 0, std::numbers::pi / 2, 0, 1e-8, 1000, GSL_INTEG_GAUSS21, workspace,
+                        &theory, &error);
     gsl_integration_workspace_free(workspace);
 
     double previous = 0;
@@ -81,7 +84,8 @@ TEST(WireBreaking, HoldsAtTheLongestLengthAndBreaksBeyondIt) {
     world.add("sphere", Vector(0, 0, 0));
     world.add("sphere", Vector(0.02, 0, 0));
     const double r0 = 0.015625, stretch = 0.00390625;  // both exact in binary: r_max = 0.01953125
-    for (const auto& [r, intact] : {std::pair{r0 + stretch, true}, {std::nextafter(r0 + stretch, 1.0), false}}) {
+    for (const auto& [r, intact] :
+         {std::pair{r0 + stretch, true}, {std::nextafter(r0 + stretch, 1.0), false}}) {
         Wires wires = one_wire(WireLaw::hooke, r0, 100, stretch);
         world.blocks.position[1].x() = r;
         wires.pull(world.blocks, 1.5);
@@ -112,7 +116,7 @@ TEST(WireBreaking, StaysBrokenAndNeverPushes) {
 TEST(Wires, LawsDifferAsTheDesignSays) {
     const double r0 = 0.012, r = r0 + 0.3 * 0.008, k = 4395;
     const Wires hooke = one_wire(WireLaw::hooke, r0, k), progressive = one_wire(WireLaw::progressive, r0, k);
-    EXPECT_DOUBLE_EQ(hooke.tension_at(0, r), k * (1 - r0 / r) * r);              // k_wire times the vector of length r
+    EXPECT_DOUBLE_EQ(hooke.tension_at(0, r), k * (1 - r0 / r) * r);  // k_wire times the vector of length r
     EXPECT_DOUBLE_EQ(progressive.tension_at(0, r), k * (1 - r0 / r) * (r - r0));  // k_wire times the stretch
     EXPECT_NEAR(hooke.tension_at(0, r) / progressive.tension_at(0, r), 6, 1e-9);
 }
@@ -127,7 +131,8 @@ TEST(HangingChain, EachWireCarriesTheWeightBelow) {
     world.motion.surface = false;
     Wires wires;
     wires.longest_stretch = 1;
-    for (std::size_t i = 0; i < count; ++i) world.add("sphere", Vector(0, 0, -0.02 * static_cast<double>(i) - 1), Vector::Zero(), i == 0);
+    for (std::size_t i = 0; i < count; ++i)
+        world.add("sphere", Vector(0, 0, -0.02 * static_cast<double>(i) - 1), Vector::Zero(), i == 0);
     for (std::uint32_t i = 0; i + 1 < count; ++i) wires.add(i, 0, i + 1, 0, 0.02, 200);
     const auto simulation = world.build();
     simulation->mount_wires(wires);
@@ -137,7 +142,8 @@ TEST(HangingChain, EachWireCarriesTheWeightBelow) {
     for (std::size_t k = 0; k + 1 < count; ++k) {
         const double expected = static_cast<double>(count - 1 - k) * weight;
         std::printf("wire %zu: tension error %.1e\n", k + 1, simulation->wires.tension[k] / expected - 1);
-        EXPECT_NEAR(simulation->wires.tension[k], expected, 1e-6 * expected);  // what is left of the swing after 10 s
+        EXPECT_NEAR(simulation->wires.tension[k], expected,
+                    1e-6 * expected);  // what is left of the swing after 10 s
     }
 }
 
@@ -145,7 +151,8 @@ TEST(WiredCluster, KeepsMomentumAndAngularMomentum) {
     World world;
     world.time_step = 5e-5;
     world.add("beehive96", Vector(0, 0, 0), Vector(0.1, 0, 0));
-    world.add("beehive96", Vector(0, 0.06, 0), Vector(-0.2, 0.3, 0.1), false, dem::Quaternion::Identity(), Vector(3, 0, 1));
+    world.add("beehive96", Vector(0, 0.06, 0), Vector(-0.2, 0.3, 0.1), false, dem::Quaternion::Identity(),
+              Vector(3, 0, 1));
     world.add("beehive96", Vector(0, 0.12, 0), Vector(0, 0, -0.2));
     Wires wires;
     wires.longest_stretch = 0.1;
