@@ -39,7 +39,7 @@ def height_asked_for_is_the_height_that_arrives(folder):
     for height, period in ((0.01, 1.65), (0.168, 1.65), (0.3, 1.65), (0.15, 3.0), (0.05, 1.1)):
         figures = run_flume(folder, flume(waves=f'kind = "regular"\nheight = {height}\nperiod = {period}'), name=f"h{height}")
         heights = gauge_figures(figures, "mean_height") / height
-        check_below(f"H = {height} m, T = {period} s: mean height", heights.mean() - 1, 0.02, "H", "asked for: 2 %")
+        check_below(f"H = {height} m, T = {period} s: mean height", heights.mean() - 1, 0.02, "H", "required: 2 %")
         check_below(f"H = {height} m, T = {period} s: spread along the flume", heights.max() - heights.min(), 0.02, "H",
                     "what the sponge sends back, and nothing more")
 
@@ -58,7 +58,7 @@ def sponge_takes_waves_in(folder):
     for period in (1.1, 1.65, 2.5):
         figures = run_flume(folder, flume(waves=f'kind = "regular"\nheight = 0.02\nperiod = {period}'), name=f"t{period}")
         reflection = gauge_figures(figures, "reflection_coefficient").mean()
-        check_below(f"T = {period} s: reflection by three gauges", reflection, 0.02, "", "asked for: 2 %")
+        check_below(f"T = {period} s: reflection by three gauges", reflection, 0.02, "", "required: 2 %")
 
 
 @test

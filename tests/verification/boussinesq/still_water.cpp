@@ -28,7 +28,7 @@ Polyline rough_bed(unsigned seed, double roughness) {
     return bed;
 }
 
-// sqrt(g d) = 3 m/s times 1e-16 times some hundreds of steps; the prototype reached 5e-15.
+// sqrt(g d) = 3 m/s times 1e-16 times some thousand steps, as a random walk and a margin of ten.
 constexpr double round_off = 1e-12;
 
 TEST(StillWater, OverARoughBed) {
