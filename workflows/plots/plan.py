@@ -1,7 +1,8 @@
 """Blocks and wires seen from above at three instants: spheres of every block, links coloured by tension.
 
-A link is one line between two blocks; its tension is the sum over its wires. A link that lost wires is dashed. The shore
-(the caisson) is at the top. Above each panel stand the largest and the smallest tension of one wire at that instant.
+The instants are the start and, where the run is long enough, the paper's 9.99 and 11.67 s on its own clock. A link
+is one line between two blocks; its tension is the sum over its wires. A link that lost wires is dashed. The shore (the
+caisson) is at the top. Above each panel stand the largest and the smallest tension of one wire at that instant.
 
 usage: plan.py BLOCKS PICTURE
 """
@@ -26,15 +27,12 @@ tension, intact = wires if has_wires else (numpy.zeros((len(time), 0)), numpy.ze
 arrival = record["figures"].get("clock", {}).get("waves_reach_blocks")
 count = position.shape[1]
 
-# The start; the paper's instant of tensions, or else when the wires pull most, or else half way; and the end.
-strongest = time[tension.max(axis=1).argmax()] if has_wires else time[-1]
-if arrival is not None and time[0] < arrival + 9.99 < time[-1]:
-    between = arrival + 9.99
-elif time[0] < strongest < time[-1]:
-    between = strongest
+# The start and the paper's two instants, on its clock; a shorter run shows its strongest tension (or half time) and end.
+if arrival is not None and arrival + 11.67 <= time[-1]:
+    wanted = [time[0], arrival + 9.99, arrival + 11.67]
 else:
-    between = 0.5 * (time[0] + time[-1])
-wanted = [time[0], between, time[-1]]
+    strongest = time[tension.max(axis=1).argmax()] if has_wires else time[-1]
+    wanted = [time[0], strongest if time[0] < strongest < time[-1] else 0.5 * (time[0] + time[-1]), time[-1]]
 samples = [numpy.abs(time - instant).argmin() for instant in wanted]
 pairs, link_of_wire = numpy.unique(ends[:, [0, 2]], axis=0, return_inverse=True)
 
