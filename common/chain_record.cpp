@@ -29,7 +29,7 @@ void write_chain_record(const std::filesystem::path& folder, const ChainRecord& 
         {"schema", "tsunagi.chain/1"},   {"status", record.status},       {"message", record.message},
         {"version", TSUNAGI_VERSION},    {"scene", record.scene},         {"wires", record.wires},
         {"overrides", record.overrides}, {"wall_time", record.wall_time}, {"stages", stages}};
-    write_file(folder / "chain.json", chain.dump(1) + "\n");
+    write_text_file(folder / "chain.json", chain.dump(1) + "\n");
 }
 
 ChainRecord read_chain_record(const std::filesystem::path& folder) {

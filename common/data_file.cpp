@@ -209,13 +209,15 @@ class TemporaryFile {
     }
     const fs::path& name() const { return name_; }
 
-    /// fsync the file, rename it into place, fsync the folder.
-    void publish() {
-        sync(name_, O_RDWR);
+    /// Renames the file into place; `durable`: fsync the file before and the folder after.
+    void publish(bool durable) {
+        if (durable) sync(name_, O_RDWR);
         if (::rename(name_.c_str(), target_.c_str()) != 0)
             throw RunError(target_.string() + ": cannot rename into place: " + std::strerror(errno));
         published_ = true;
-        sync(target_.parent_path().empty() ? fs::path(".") : target_.parent_path(), O_RDONLY | O_DIRECTORY);
+        if (durable)
+            sync(target_.parent_path().empty() ? fs::path(".") : target_.parent_path(),
+                 O_RDONLY | O_DIRECTORY);
     }
 
  private:
@@ -229,6 +231,28 @@ class TemporaryFile {
     fs::path target_, name_;
     bool published_ = false;
 };
+
+/// Writes a whole file atomically. Throws RunError.
+void write_file(const fs::path& path, std::string_view content, bool durable) {
+    TemporaryFile temporary(path);
+    const int descriptor = ::open(temporary.name().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+    if (descriptor < 0)
+        throw RunError(fmt::format("{}: cannot create: {}", path.string(), std::strerror(errno)));
+    std::size_t written = 0;
+    while (written < content.size()) {
+        const ssize_t count = ::write(descriptor, content.data() + written, content.size() - written);
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) {
+            const int reason = errno;
+            ::close(descriptor);
+            throw RunError(fmt::format("{}: cannot write: {}", path.string(), std::strerror(reason)));
+        }
+        written += static_cast<std::size_t>(count);
+    }
+    if (::close(descriptor) != 0)
+        throw RunError(fmt::format("{}: cannot write: {}", path.string(), std::strerror(errno)));
+    temporary.publish(durable);
+}
 
 // ---------------------------------------------------------------- reading
 
@@ -409,7 +433,7 @@ void write_data_file(const fs::path& path, const DataFile& content) {
         for (const auto& [name, dataset] : content.datasets) write_dataset(file, name, dataset, path);
         require_built(H5Fflush(file, H5F_SCOPE_GLOBAL) >= 0 && image.measure(file), path, "the file");
     }
-    write_file(path, image.bytes());
+    write_file(path, image.bytes(), true);
 }
 
 DataFile read_data_file(const fs::path& path) {
@@ -432,25 +456,8 @@ DataFile read_data_file(const fs::path& path) {
     return content;
 }
 
-void write_file(const fs::path& path, std::string_view content) {
-    TemporaryFile temporary(path);
-    const int descriptor = ::open(temporary.name().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-    if (descriptor < 0)
-        throw RunError(fmt::format("{}: cannot create: {}", path.string(), std::strerror(errno)));
-    std::size_t written = 0;
-    while (written < content.size()) {
-        const ssize_t count = ::write(descriptor, content.data() + written, content.size() - written);
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) {
-            const int reason = errno;
-            ::close(descriptor);
-            throw RunError(fmt::format("{}: cannot write: {}", path.string(), std::strerror(reason)));
-        }
-        written += static_cast<std::size_t>(count);
-    }
-    if (::close(descriptor) != 0)
-        throw RunError(fmt::format("{}: cannot write: {}", path.string(), std::strerror(errno)));
-    temporary.publish();
+void write_text_file(const fs::path& path, std::string_view content) {
+    write_file(path, content, false);
 }
 
 }  // namespace common

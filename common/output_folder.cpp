@@ -88,13 +88,34 @@ OutputFolder::OutputFolder(fs::path folder, RunIdentity identity, bool resume)
     remove_files(folder_, is_ours);
 }
 
+OutputFolder::~OutputFolder() {
+    if (!index_is_stale_) return;
+    try {
+        write_index();
+    } catch (const RunError& error) {
+        // The windows are whole and the run's own outcome stands: say it, and let that be told.
+        fmt::print(stderr, "{}: warning: {}\n", identity_.stage, error.what());
+    }
+}
+
+void OutputFolder::write_index() {
+    index_written_ = std::chrono::steady_clock::now();
+    index_.write(folder_, identity_.stage);
+    index_cost_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - index_written_).count();
+    index_is_stale_ = false;
+}
+
 void OutputFolder::publish(Window window, DataFile state) {
     window.stage = identity_.stage;
     window.scene_digest = identity_.scene_digest;
     window.input_digest = identity_.input_digest;
     publish_window(folder_, window);
     index_.add(window);
-    index_.write(folder_, identity_.stage);
+    index_is_stale_ = true;
+    // The index is written whole each time and grows: a long run must not spend its time on it.
+    constexpr double largest_share = 0.02;
+    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - index_written_;
+    if (index_cost_ <= largest_share * since.count()) write_index();
     state.attributes["schema"] = fmt::format("tsunagi.{}.state/1", identity_.stage);
     state.attributes["stage"] = identity_.stage;
     state.attributes["scene_digest"] = identity_.scene_digest;

@@ -1,6 +1,7 @@
 /// A run's output folder: who may write, whether to start, go on or do nothing, and the state to go on from.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -40,6 +41,10 @@ class OutputFolder {
     enum class Start { fresh, go_on, nothing_to_do };
 
     OutputFolder(std::filesystem::path folder, RunIdentity identity, bool resume);
+    /// Brings the ParaView index up to date.
+    ~OutputFolder();
+    OutputFolder(const OutputFolder&) = delete;
+    OutputFolder& operator=(const OutputFolder&) = delete;
 
     Start start() const { return start_; }
     /// The saved state when start() is go_on.
@@ -57,12 +62,16 @@ class OutputFolder {
     const std::filesystem::path& path() const { return folder_; }
 
  private:
+    void write_index();
     std::filesystem::path folder_;
     RunIdentity identity_;
     Start start_ = Start::fresh;
     std::optional<DataFile> state_;
     std::int64_t next_window_ = 0;
     XdmfIndex index_;
+    bool index_is_stale_ = false;
+    double index_cost_ = 0;  // s, of writing it last
+    std::chrono::steady_clock::time_point index_written_{};
     FolderLock lock_;
 };
 

@@ -139,7 +139,7 @@ void RunRecord::write(const std::string& status, const std::string& message) {
                    {"notes", content_->notes},
                    {"phases", phases},
                    {"scene", content_->scene}};
-    write_file(folder_ / "run.json", record.dump(1) + "\n");
+    write_text_file(folder_ / "run.json", record.dump(1) + "\n");
 }
 
 UpstreamStatus read_upstream_status(const std::filesystem::path& folder) {

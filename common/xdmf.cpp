@@ -149,7 +149,7 @@ std::string XdmfIndex::text() const {
 }
 
 void XdmfIndex::write(const std::filesystem::path& folder, const std::string& stage) const {
-    if (!grids_.empty()) write_file(folder / (stage + ".xdmf"), text());
+    if (!grids_.empty()) write_text_file(folder / (stage + ".xdmf"), text());
 }
 
 }  // namespace common
