@@ -14,33 +14,44 @@ void decide_effects(const common::SceneFile& file, Scene& scene) {
         if (wish == EffectWish::automatic)
             scene.effects.push_back({name, is_needed, reason});
         else
-            scene.effects.push_back({name, wish == EffectWish::on, fmt::format("[effects] {} = \"{}\"", name, wish == EffectWish::on ? "on" : "off")});
+            scene.effects.push_back(
+                {name, wish == EffectWish::on,
+                 fmt::format("[effects] {} = \"{}\"", name, wish == EffectWish::on ? "on" : "off")});
     };
     const bool is_wave_driven = scene.drive == Drive::waves;
     decide("start_at_arrival", is_wave_driven && !scene.start,
-           !is_wave_driven ? "not driven by waves" : scene.start ? "cmps.start gives a time" : "still water before the first wave is not simulated");
+           !is_wave_driven ? "not driven by waves"
+           : scene.start   ? "cmps.start gives a time"
+                           : "still water before the first wave is not simulated");
     const bool has_zone = is_wave_driven && scene.boundary != Boundary::paper;
     decide("relaxation_zone", has_zone,
-           has_zone ? "cmps.boundary asks for it" : is_wave_driven ? "cmps.boundary = \"paper\"" : "not driven by waves");
+           has_zone         ? "cmps.boundary asks for it"
+           : is_wave_driven ? "cmps.boundary = \"paper\""
+                            : "not driven by waves");
 
     const bool has_overflow = is_wave_driven && scene.boundary != Boundary::relaxation;
     decide("wall_overflow", has_overflow,
-           has_overflow ? "cmps.boundary asks for it" : is_wave_driven ? "the relaxation zone takes reflected waves" : "not driven by waves");
+           has_overflow     ? "cmps.boundary asks for it"
+           : is_wave_driven ? "the relaxation zone takes reflected waves"
+                            : "not driven by waves");
 
     // boundary layer of a wave of about a second: sqrt(nu T)
     const double layer = std::sqrt(scene.viscosity * 1.0);
     const bool is_resolved = layer > 2.0 * scene.settings.spacing;
     decide("viscosity", is_resolved,
-           fmt::format("boundary layer of one second {:.2g} m, particle spacing {:.2g} m", layer, scene.settings.spacing));
+           fmt::format("boundary layer of one second {:.2g} m, particle spacing {:.2g} m", layer,
+                       scene.settings.spacing));
 
-    const double height = is_wave_driven && file.has_section("waves") && file.foreign_section("waves").is_number("height")
-                              ? file.foreign_section("waves").number("height", "m", "wave height", common::Range::any(), 0.0)
-                              : 0.0;
+    const double height =
+        is_wave_driven && file.has_section("waves") && file.foreign_section("waves").is_number("height")
+            ? file.foreign_section("waves").number("height", "m", "wave height", common::Range::any(), 0.0)
+            : 0.0;
     // in front of a reflecting structure waves stand twice as high as they came
     const double steepness = (scene.structure.empty() ? 1.0 : 2.0) * height / scene.settings.depth;
     decide("turbulence", steepness > 0.8,
            height == 0 ? "no wave height is given: no breaking expected"
-                       : fmt::format("largest H/h {:.2f} {} 0.8: {}breaking expected", steepness, steepness > 0.8 ? ">" : "<=", steepness > 0.8 ? "" : "no "));
+                       : fmt::format("largest H/h {:.2f} {} 0.8: {}breaking expected", steepness,
+                                     steepness > 0.8 ? ">" : "<=", steepness > 0.8 ? "" : "no "));
 
     double crest = -1e300;
     for (const Polygon& polygon : scene.structure)
@@ -48,7 +59,7 @@ void decide_effects(const common::SceneFile& file, Scene& scene) {
     const double reachable = 1.2 * scene.settings.depth;  // run-up of a breaking standing wave
     const bool blocks = crest > 0 && crest < reachable && scene.water.empty() && !scene.tank;
     decide("overtopping_basin", blocks,
-           crest <= 0          ? "no structure stands above still water"
+           crest <= 0           ? "no structure stands above still water"
            : crest >= reachable ? fmt::format("crest at {:.2f} m is out of reach", crest)
            : blocks             ? fmt::format("crest at {:.2f} m can be reached", crest)
                                 : "cmps.water says where water stands");

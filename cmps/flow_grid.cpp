@@ -9,9 +9,9 @@
 namespace cmps {
 namespace {
 
-constexpr int fields = 4;                             // u, w, Du/Dt, Dw/Dt
-constexpr int moments = 6;                            // of the fluid's weights
-constexpr int stride = moments + 3 * fields + 1;      // + solid weight
+constexpr int fields = 4;                         // u, w, Du/Dt, Dw/Dt
+constexpr int moments = 6;                        // of the fluid's weights
+constexpr int stride = moments + 3 * fields + 1;  // + solid weight
 
 }  // namespace
 
@@ -22,7 +22,8 @@ double linear_fit(const double m[6], const double v[3], double scale) {
     const double ax = m[1] / m[0], az = m[2] / m[0];
     const double xx = m[3] / m[0] - ax * ax, xz = m[4] / m[0] - ax * az, zz = m[5] / m[0] - az * az;
     const double determinant = xx * zz - xz * xz;
-    const double enough = 1e-3 * scale * scale;  // variance of the neighbours' places; below it no slope is known
+    const double enough =
+        1e-3 * scale * scale;  // variance of the neighbours' places; below it no slope is known
     if (determinant < enough * enough) return mean;
     const double cx = v[1] / m[0] - ax * mean, cz = v[2] / m[0] - az * mean;
     const double slope_x = (zz * cx - xz * cz) / determinant, slope_z = (xx * cz - xz * cx) / determinant;
@@ -41,7 +42,8 @@ FlowGrid::FlowGrid(const FlowGridSettings& settings, const Solid& solid, double 
     const std::size_t nodes = x.size() * z.size();
     velocity.resize(2 * nodes), acceleration.resize(2 * nodes), wet.resize(nodes);
     sums_.resize(stride * nodes);
-    full_weight_ = 3.14159265358979 * reach_ * reach_ / 7.0 / (particle_spacing * particle_spacing);  // integral of w / l0^2
+    full_weight_ = 3.14159265358979 * reach_ * reach_ / 7.0 /
+                   (particle_spacing * particle_spacing);  // integral of w / l0^2
 
     std::vector<char> is_solid(nodes);
     for (std::size_t k = 0; k < z.size(); ++k)
@@ -67,17 +69,25 @@ void FlowGrid::evaluate(const Particles& particles) {
     std::fill(sums_.begin(), sums_.end(), 0.0);
     const WendlandKernel kernel{reach_};
     const double dx = x.size() > 1 ? x[1] - x[0] : 1.0, dz = z.size() > 1 ? z[1] - z[0] : 1.0;
-    const auto last = [](const std::vector<double>& axis) { return static_cast<std::ptrdiff_t>(axis.size()) - 1; };
+    const auto last = [](const std::vector<double>& axis) {
+        return static_cast<std::ptrdiff_t>(axis.size()) - 1;
+    };
     for (std::size_t j = 0; j < particles.size(); ++j) {
         const double px = particles.x[j], pz = particles.z[j];
-        if (px < x.front() - reach_ || px > x.back() + reach_ || pz < z.front() - reach_ || pz > z.back() + reach_)
+        if (px < x.front() - reach_ || px > x.back() + reach_ || pz < z.front() - reach_ ||
+            pz > z.back() + reach_)
             continue;
-        const std::ptrdiff_t i0 = std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(std::ceil((px - reach_ - x[0]) / dx)));
-        const std::ptrdiff_t i1 = std::min(last(x), static_cast<std::ptrdiff_t>(std::floor((px + reach_ - x[0]) / dx)));
-        const std::ptrdiff_t k0 = std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(std::ceil((pz - reach_ - z[0]) / dz)));
-        const std::ptrdiff_t k1 = std::min(last(z), static_cast<std::ptrdiff_t>(std::floor((pz + reach_ - z[0]) / dz)));
+        const std::ptrdiff_t i0 =
+            std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(std::ceil((px - reach_ - x[0]) / dx)));
+        const std::ptrdiff_t i1 =
+            std::min(last(x), static_cast<std::ptrdiff_t>(std::floor((px + reach_ - x[0]) / dx)));
+        const std::ptrdiff_t k0 =
+            std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(std::ceil((pz - reach_ - z[0]) / dz)));
+        const std::ptrdiff_t k1 =
+            std::min(last(z), static_cast<std::ptrdiff_t>(std::floor((pz + reach_ - z[0]) / dz)));
         const bool is_fluid = particles.is_fluid(j);
-        const double value[fields] = {particles.u[j], particles.w[j], particles.acceleration_x[j], particles.acceleration_z[j]};
+        const double value[fields] = {particles.u[j], particles.w[j], particles.acceleration_x[j],
+                                      particles.acceleration_z[j]};
         for (std::ptrdiff_t k = k0; k <= k1; ++k)
             for (std::ptrdiff_t i = i0; i <= i1; ++i) {
                 const double rx = px - x[i], rz = pz - z[k], w = kernel.weight(rx * rx + rz * rz);

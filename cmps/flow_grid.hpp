@@ -1,9 +1,9 @@
 /// The grid on which dem receives the flow: velocity, acceleration and wet fraction from the particles.
 ///
-/// Moving least squares of first order over fluid particles within reach (exact for linear fields, also next to the
-/// bed and the surface); a plain weighted mean where too few particles stand around. Wet fraction: share of the kernel
-/// that water fills of what the solid leaves, so that it is 1/2 on the surface. Nodes in the solid copy the nearest
-/// node outside it: an interpolation at the bed finds no holes. Zero where dry.
+/// Moving least squares of first order over fluid particles within reach (exact for linear fields, also next
+/// to the bed and the surface); a plain weighted mean where too few particles stand around. Wet fraction:
+/// share of the kernel that water fills of what the solid leaves, so that it is 1/2 on the surface. Nodes in
+/// the solid copy the nearest node outside it: an interpolation at the bed finds no holes. Zero where dry.
 #pragma once
 
 #include <vector>
@@ -25,10 +25,10 @@ class FlowGrid {
 
     void evaluate(const Particles& particles);
 
-    std::vector<double> x, z;          ///< nodes, m
-    std::vector<float> velocity;       ///< (nz, nx, 2), m/s
-    std::vector<float> acceleration;   ///< (nz, nx, 2), Du/Dt, m/s2
-    std::vector<float> wet;            ///< (nz, nx)
+    std::vector<double> x, z;         ///< nodes, m
+    std::vector<float> velocity;      ///< (nz, nx, 2), m/s
+    std::vector<float> acceleration;  ///< (nz, nx, 2), Du/Dt, m/s2
+    std::vector<float> wet;           ///< (nz, nx)
 
  private:
     struct Sums;
@@ -37,7 +37,8 @@ class FlowGrid {
     std::vector<double> sums_;
 };
 
-/// Linear least-squares value at one point: sums of w, w dx, w dz, w dx^2, w dx dz, w dz^2 and of w f, w f dx, w f dz.
+/// Linear least-squares value at one point: sums of w, w dx, w dz, w dx^2, w dx dz, w dz^2 and of w f, w f
+/// dx, w f dz.
 double linear_fit(const double moments[6], const double values[3], double scale);
 
 }  // namespace cmps

@@ -23,8 +23,8 @@ double travel_time(const Scene& scene) {
     return time;
 }
 
-/// Mean step over the largest one (0.4 l0 / sqrt(g h)), as met in runs: waves of H/h = 0.2 to 0.4 with samples every
-/// 0.02 s; columns that collapse, whose speed of about 2 sqrt(g h) sets the step.
+/// Mean step over the largest one (0.4 l0 / sqrt(g h)), as met in runs: waves of H/h = 0.2 to 0.4 with
+/// samples every 0.02 s; columns that collapse, whose speed of about 2 sqrt(g h) sets the step.
 double step_ratio(const Scene& scene) {
     if (scene.drive != Drive::none) return 0.7;
     return scene.water.empty() ? 1.0 : 0.35;
@@ -35,7 +35,10 @@ double step_ratio(const Scene& scene) {
 Forecast make_forecast(const Scene& scene, double start) {
     Forecast forecast;
     const bool is_at_arrival = scene.drive == Drive::waves && scene.has_effect("start_at_arrival");
-    forecast.start = start >= 0 ? start : scene.start ? *scene.start : is_at_arrival ? travel_time(scene) : 0.0;
+    forecast.start = start >= 0      ? start
+                     : scene.start   ? *scene.start
+                     : is_at_arrival ? travel_time(scene)
+                                     : 0.0;
 
     const Solid solid = make_solid(scene);
     NearField field(scene.settings, initial_particles(scene, solid, nullptr));
@@ -51,10 +54,12 @@ Forecast make_forecast(const Scene& scene, double start) {
         const auto begun = std::chrono::steady_clock::now();
         field.advance(time, 0.5 * largest);
         time += 0.5 * largest;
-        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+        const double seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
         if (k >= warm_up) best = std::min(best, seconds);
     }
-    constexpr double motion_costs = 2.0;  // moving water needs more iterations, lists and samples than water at rest
+    constexpr double motion_costs =
+        2.0;  // moving water needs more iterations, lists and samples than water at rest
     forecast.seconds = forecast.steps * best * motion_costs;
     forecast.memory = 25e6 + 2000.0 * static_cast<double>(field.particles.size());
     return forecast;

@@ -12,8 +12,8 @@ struct Forecast {
     double start = 0;                     ///< s, estimated when the near field starts at arrival
     double step = 0;                      ///< mean time step expected, s
     double steps = 0;
-    double seconds = 0;                   ///< wall time on this machine, one thread
-    double memory = 0;                    ///< bytes
+    double seconds = 0;  ///< wall time on this machine, one thread
+    double memory = 0;   ///< bytes
 };
 
 /// Fills the scene and times a few steps of it at rest (well under a second for most scenes).

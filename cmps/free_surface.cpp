@@ -6,9 +6,10 @@
 
 namespace cmps {
 
-void find_free_surface(const Particles& particles, const NeighbourLists& lists, const Interactions& interactions,
-                       double n0, std::vector<Place>& place) {
-    const std::size_t first = particles.first_wall(), rows = particles.size() - first, walls = particles.walls;
+void find_free_surface(const Particles& particles, const NeighbourLists& lists,
+                       const Interactions& interactions, double n0, std::vector<Place>& place) {
+    const std::size_t first = particles.first_wall(), rows = particles.size() - first,
+                      walls = particles.walls;
     place.resize(rows);
     common::parallel_for(rows, 4000, [&](std::size_t r) {
         const double n = interactions.number_density[r];

@@ -35,7 +35,8 @@ double surface_elevation(const Particles& particles, const Solid& solid, double 
         for (const auto& [dx, pz] : near) sum += kernel.weight(dx * dx + (pz - z) * (pz - z));
         return sum / full;
     };
-    // like a wire gauge: the wetted length above the bottom, so that a void under an overturning crest counts as air
+    // like a wire gauge: the wetted length above the bottom, so that a void under an overturning crest counts
+    // as air
     const double step = 0.25 * spacing;
     double below = filled(bottom + 0.5 * spacing), wetted = below < 0.5 ? 0.0 : 0.5 * spacing;
     for (double z = bottom + 0.5 * spacing + step; z < ceiling; z += step) {
@@ -74,12 +75,15 @@ std::array<double, 2> velocity_at(const Particles& particles, double spacing, do
     const WendlandKernel kernel{2.1 * spacing};
     double m[6] = {}, u[3] = {}, w[3] = {};
     for (std::size_t j = particles.first_fluid(); j < particles.size(); ++j) {
-        const double dx = particles.x[j] - x, dz = particles.z[j] - z, weight = kernel.weight(dx * dx + dz * dz);
+        const double dx = particles.x[j] - x, dz = particles.z[j] - z,
+                     weight = kernel.weight(dx * dx + dz * dz);
         if (weight <= 0) continue;
         m[0] += weight, m[1] += weight * dx, m[2] += weight * dz;
         m[3] += weight * dx * dx, m[4] += weight * dx * dz, m[5] += weight * dz * dz;
-        u[0] += weight * particles.u[j], u[1] += weight * particles.u[j] * dx, u[2] += weight * particles.u[j] * dz;
-        w[0] += weight * particles.w[j], w[1] += weight * particles.w[j] * dx, w[2] += weight * particles.w[j] * dz;
+        u[0] += weight * particles.u[j], u[1] += weight * particles.u[j] * dx,
+            u[2] += weight * particles.u[j] * dz;
+        w[0] += weight * particles.w[j], w[1] += weight * particles.w[j] * dx,
+            w[2] += weight * particles.w[j] * dz;
     }
     const double scale = spacing * spacing;
     return {linear_fit(m, u, scale), linear_fit(m, w, scale)};

@@ -9,8 +9,8 @@ namespace {
 
 /// sum over pressure carriers of difference(i, j) r_ij w / r^2, times D/n0.
 template <class Difference, class Finish>
-void sweep(const Particles& particles, const NeighbourLists& lists, const Interactions& interactions, double n0,
-           const Difference& difference, const Finish& finish) {
+void sweep(const Particles& particles, const NeighbourLists& lists, const Interactions& interactions,
+           double n0, const Difference& difference, const Finish& finish) {
     const std::size_t first = particles.first_wall(), walls = particles.walls;
     const std::int32_t* const neighbour = lists.neighbour.data();
     const float* const dx = interactions.dx.data();
@@ -57,7 +57,9 @@ void GradientTerm::evaluate(const Particles& particles, const NeighbourLists& li
     gradient_x.resize(particles.fluid);
     gradient_z.resize(particles.fluid);
     const double* const p = particles.pressure.data();
-    const auto store = [&](std::size_t f, std::size_t, double x, double z) { gradient_x[f] = x, gradient_z[f] = z; };
+    const auto store = [&](std::size_t f, std::size_t, double x, double z) {
+        gradient_x[f] = x, gradient_z[f] = z;
+    };
     const auto run = [&](const auto& difference, const auto& finish) {
         sweep(particles, lists, interactions, lattice_density_, difference, finish);
     };
@@ -68,14 +70,17 @@ void GradientTerm::evaluate(const Particles& particles, const NeighbourLists& li
             break;
         case Gradient::modified:  // eq. (4)
             find_local_minima(particles, lists, interactions);
-            run([p, m = minimum_.data()](std::size_t i, std::size_t j) { return p[i] + p[j] - 2 * m[i]; }, store);
+            run([p, m = minimum_.data()](std::size_t i, std::size_t j) { return p[i] + p[j] - 2 * m[i]; },
+                store);
             break;
         case Gradient::antisymmetric_local:  // eq. (5) as printed
             find_local_minima(particles, lists, interactions);
-            run([p, m = minimum_.data()](std::size_t i, std::size_t j) { return p[i] + p[j] - m[i] - m[j]; }, store);
+            run([p, m = minimum_.data()](std::size_t i, std::size_t j) { return p[i] + p[j] - m[i] - m[j]; },
+                store);
             break;
         case Gradient::antisymmetric_global: {  // eq. (5) with the lowest pressure of the water
-            const auto begin = particles.pressure.begin() + static_cast<std::ptrdiff_t>(particles.first_wall());
+            const auto begin =
+                particles.pressure.begin() + static_cast<std::ptrdiff_t>(particles.first_wall());
             const double lowest = particles.fluid ? *std::min_element(begin, particles.pressure.end()) : 0.0;
             run([p, lowest](std::size_t i, std::size_t j) { return p[i] + p[j] - 2 * lowest; }, store);
             break;

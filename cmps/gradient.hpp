@@ -4,11 +4,13 @@
 ///
 ///     standard        (1)   D/n0 sum (p_j - p^_i) r_ij w / r^2
 ///     modified        (4)   D/n0 sum (p_i + p_j - 2 p^_i) r_ij w / r^2
-///     antisymmetric   (5)   D/n0 sum (p_i + p_j - p^_i - p^_j) r_ij w / r^2        conserves momentum exactly
-///     corrected       GC    C_i D/n0 sum (p_j - p_i) r_ij w / r^2                  exact for a linear pressure
+///     antisymmetric   (5)   D/n0 sum (p_i + p_j - p^_i - p^_j) r_ij w / r^2        conserves momentum
+///     exactly corrected       GC    C_i D/n0 sum (p_j - p_i) r_ij w / r^2                  exact for a
+///     linear pressure
 ///
-/// (5) with local minima gives zero for a linear pressure on a regular lattice; with the lowest pressure of the
-/// connected water (zero at a free surface) it is p_i + p_j: it conserves momentum and is consistent on a lattice.
+/// (5) with local minima gives zero for a linear pressure on a regular lattice; with the lowest pressure of
+/// the connected water (zero at a free surface) it is p_i + p_j: it conserves momentum and is consistent on a
+/// lattice.
 #pragma once
 
 #include <vector>
@@ -34,7 +36,8 @@ class GradientTerm {
                   std::vector<double>& gradient_x, std::vector<double>& gradient_z);
 
  private:
-    void find_local_minima(const Particles& particles, const NeighbourLists& lists, const Interactions& interactions);
+    void find_local_minima(const Particles& particles, const NeighbourLists& lists,
+                           const Interactions& interactions);
     Gradient kind_;
     double lattice_density_;
     std::vector<double> minimum_;

@@ -7,7 +7,8 @@ namespace cmps {
 namespace {
 
 /// One column of water between z0 and z1; `carry` is the fraction of a particle still owed.
-void fill_column(double x, double width, double z0, double z1, double spacing, double& carry, Particles& particles) {
+void fill_column(double x, double width, double z0, double z1, double spacing, double& carry,
+                 Particles& particles) {
     const double exact = (z1 - z0) * width / (spacing * spacing) + carry;
     const int count = static_cast<int>(std::lround(exact));
     if (count <= 0) {
@@ -48,7 +49,8 @@ void fill_water(const Solid& solid, double spacing, double x0, double x1, double
     }
 }
 
-void fill_polygons(const Solid& solid, double spacing, const std::vector<Polygon>& water, Particles& particles) {
+void fill_polygons(const Solid& solid, double spacing, const std::vector<Polygon>& water,
+                   Particles& particles) {
     for (const Polygon& polygon : water) {
         double x0 = 1e300, x1 = -1e300, z0 = 1e300, z1 = -1e300;
         for (const Point& p : polygon) {
@@ -64,7 +66,8 @@ void fill_polygons(const Solid& solid, double spacing, const std::vector<Polygon
             std::vector<double> cuts;
             for (std::size_t i = 0; i < polygon.size(); ++i) {
                 const Point &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-                if ((a[0] > x) != (b[0] > x)) cuts.push_back(a[1] + (b[1] - a[1]) * (x - a[0]) / (b[0] - a[0]));
+                if ((a[0] > x) != (b[0] > x))
+                    cuts.push_back(a[1] + (b[1] - a[1]) * (x - a[0]) / (b[0] - a[0]));
             }
             std::sort(cuts.begin(), cuts.end());
             for (std::size_t k = 0; k + 1 < cuts.size(); k += 2)

@@ -19,8 +19,8 @@ void compute_interactions(const Kernel& kernel, const Particles& particles, cons
     for (auto* array : {&out.dx, &out.dz, &out.weight, &out.weight_over_r2}) array->resize(entries);
     if (extras.slope) out.slope.resize(entries);
     if (extras.curvature) out.curvature.resize(entries);
-    for (auto* array : {&out.number_density, &out.asymmetry_x, &out.asymmetry_z, &out.crowding_x, &out.crowding_z,
-                        &out.moment_xx, &out.moment_xz, &out.moment_zz})
+    for (auto* array : {&out.number_density, &out.asymmetry_x, &out.asymmetry_z, &out.crowding_x,
+                        &out.crowding_z, &out.moment_xx, &out.moment_xz, &out.moment_zz})
         array->resize(rows);
 
     const double* const x = particles.x.data();
@@ -67,7 +67,8 @@ void compute_interactions(const Kernel& kernel, const Particles& particles, cons
             double n = 0, fx = 0, fz = 0, sx = 0, sz = 0;
 #pragma omp simd reduction(+ : n, fx, fz, sx, sz)
             for (std::size_t k = begin; k < end; ++k) {
-                n += w[k], fx += over_r[k] * dx[k], fz += over_r[k] * dz[k], sx += g[k] * dx[k], sz += g[k] * dz[k];
+                n += w[k], fx += over_r[k] * dx[k], fz += over_r[k] * dz[k], sx += g[k] * dx[k],
+                    sz += g[k] * dz[k];
             }
             double xx = 0, xz = 0, zz = 0;
 #pragma omp simd reduction(+ : xx, xz, zz)
@@ -90,7 +91,9 @@ void compute_interactions(const Kernel& kernel, const Particles& particles, cons
     });
 }
 
-template void compute_interactions(const RationalKernel&, const Particles&, const NeighbourLists&, PairExtras, Interactions&);
-template void compute_interactions(const WendlandKernel&, const Particles&, const NeighbourLists&, PairExtras, Interactions&);
+template void compute_interactions(const RationalKernel&, const Particles&, const NeighbourLists&, PairExtras,
+                                   Interactions&);
+template void compute_interactions(const WendlandKernel&, const Particles&, const NeighbourLists&, PairExtras,
+                                   Interactions&);
 
 }  // namespace cmps

@@ -39,11 +39,11 @@ struct WendlandKernel {
 
 /// Sums over the full square lattice of spacing l0, the particle itself left out.
 struct LatticeConstants {
-    double number_density;       ///< n0 = sum w
-    double lambda;               ///< sum w r^2 / n0, m^2
-    double divergence_scale;     ///< -sum (w'/r) r^2 / (2 n0): what the raw higher-order source is too large by
-    double laplacian_ratio;      ///< sum of the higher-order Laplacian's coefficients over n0
-    double laplacian_scale;      ///< the same for the higher-order Laplacian: sum (w'' - w'/r) r^2 / (4 n0)
+    double number_density;    ///< n0 = sum w
+    double lambda;            ///< sum w r^2 / n0, m^2
+    double divergence_scale;  ///< -sum (w'/r) r^2 / (2 n0): what the raw higher-order source is too large by
+    double laplacian_ratio;   ///< sum of the higher-order Laplacian's coefficients over n0
+    double laplacian_scale;   ///< the same for the higher-order Laplacian: sum (w'' - w'/r) r^2 / (4 n0)
 };
 
 /// Computes the constants by summing over the lattice; `spacing` and the kernel's radius in m.

@@ -30,22 +30,25 @@ double start_time(const cmps::Scene& scene, cmps::WaveField* waves) {
     if (!waves || !scene.has_effect("start_at_arrival")) return 0.0;
     const double arrival = waves->arrival(scene.offshore, scene.arrival_threshold, 0.0);
     if (arrival < 0)
-        throw common::InputError(fmt::format("the waves never reach cmps.offshore = {:g} m: |surface elevation| stays below {:g} m", scene.offshore, scene.arrival_threshold));
+        throw common::InputError(fmt::format(
+            "the waves never reach cmps.offshore = {:g} m: |surface elevation| stays below {:g} m",
+            scene.offshore, scene.arrival_threshold));
     // whole windows, so that this stage's windows are those of the stage before
     return std::floor(arrival / scene.time.window) * scene.time.window;
 }
 
 /// What the levels cost in accuracy: standing wave of half a tank, five periods (tests/verification/cmps).
 std::string expected_error(double particles_over_depth) {
-    return fmt::format("wave period {:.1f} %, wave height {:.0f} % lost per wave length", 100 / particles_over_depth / particles_over_depth,
-                       40 / particles_over_depth);
+    return fmt::format("wave period {:.1f} %, wave height {:.0f} % lost per wave length",
+                       100 / particles_over_depth / particles_over_depth, 40 / particles_over_depth);
 }
 
 int check(const common::StageCommand& command, const common::SceneFile& file, const cmps::Scene& scene) {
     if (command.all) std::cout << file.reference() << "\n";
     std::cout << "effects:\n";
     for (const auto& effect : scene.effects)
-        std::cout << fmt::format("  {:<18} {:<4} {}\n", effect.name, effect.is_on ? "on" : "off", effect.reason);
+        std::cout << fmt::format("  {:<18} {:<4} {}\n", effect.name, effect.is_on ? "on" : "off",
+                                 effect.reason);
     double start = -1;
     if (!command.upstream.empty() && scene.drive == cmps::Drive::waves) {
         common::WindowReader reader(command.upstream, "boussinesq", wave_datasets, false);
@@ -59,8 +62,9 @@ int check(const common::StageCommand& command, const common::SceneFile& file, co
         "  time               from {}{:.1f} s to {:g} s, {:.0f} steps of about {:.2g} s\n"
         "  run time           about {:.3g} s, {:.0f} MB\n"
         "  expected error     {}\n",
-        forecast.fluid, forecast.boundary, scene.settings.spacing, start < 0 && !scene.start && forecast.start > 0 ? "about " : "", forecast.start,
-        scene.time.end, forecast.steps, forecast.step, forecast.seconds, forecast.memory / 1e6,
+        forecast.fluid, forecast.boundary, scene.settings.spacing,
+        start < 0 && !scene.start && forecast.start > 0 ? "about " : "", forecast.start, scene.time.end,
+        forecast.steps, forecast.step, forecast.seconds, forecast.memory / 1e6,
         expected_error(scene.settings.depth / scene.settings.spacing));
     return common::exit_done;
 }
@@ -70,20 +74,25 @@ int run(const common::StageCommand& command, const common::SceneFile& file, cons
     std::optional<cmps::WaveField> waves;
     std::string upstream;
     if (scene.drive == cmps::Drive::waves) {
-        if (command.upstream.empty()) throw common::InputError("cmps run: --waves DIR is needed, for cmps.drive = \"waves\"");
+        if (command.upstream.empty())
+            throw common::InputError("cmps run: --waves DIR is needed, for cmps.drive = \"waves\"");
         reader.emplace(command.upstream, "boussinesq", wave_datasets, command.follow);
         upstream = reader->first().scene_digest;
         const double reach = scene.boundary == cmps::Boundary::paper ? 0.5 : scene.relaxation_length + 0.5;
         waves.emplace(*reader, scene.offshore - 0.5, scene.offshore + reach);
         if (!command.follow && reader->available_until() < scene.time.end - 1e-9)
-            throw common::InputError(fmt::format("{}: the wave windows end at t = {:g} s, before time.end = {:g} s",
-                                                 command.upstream.string(), reader->available_until(), scene.time.end));
+            throw common::InputError(
+                fmt::format("{}: the wave windows end at t = {:g} s, before time.end = {:g} s",
+                            command.upstream.string(), reader->available_until(), scene.time.end));
     }
     common::OutputFolder folder(command.out, {"cmps", file.digest(upstream), upstream}, command.resume);
     if (folder.start() == common::OutputFolder::Start::nothing_to_do) return common::exit_done;
     const bool goes_on = folder.start() == common::OutputFolder::Start::go_on;
-    const double start = goes_on ? folder.state().at("/run").doubles()[0] : start_time(scene, waves ? &*waves : nullptr);
-    if (start >= scene.time.end) throw common::InputError(fmt::format("time.end = {:g} s lies before the near field starts, t = {:g} s", scene.time.end, start));
+    const double start =
+        goes_on ? folder.state().at("/run").doubles()[0] : start_time(scene, waves ? &*waves : nullptr);
+    if (start >= scene.time.end)
+        throw common::InputError(fmt::format(
+            "time.end = {:g} s lies before the near field starts, t = {:g} s", scene.time.end, start));
     if (waves) waves->cover(start, start);
 
     common::RunRecord record(command.out, "cmps");
@@ -126,7 +135,8 @@ int run(const common::StageCommand& command, const common::SceneFile& file, cons
     record.add_phase_time("pressure solve", seconds.solve);
     record.add_phase_time("gradient", seconds.gradient);
     record.add_phase_time("motion", seconds.motion);
-    for (const auto& effect : simulation.field().effects) record.add_phase_time(effect->name(), effect->seconds);
+    for (const auto& effect : simulation.field().effects)
+        record.add_phase_time(effect->name(), effect->seconds);
     record.write_ended("done");
     progress.finish(fmt::format("{} steps", simulation.field().counts.steps));
     return common::exit_done;
@@ -137,7 +147,10 @@ int run(const common::StageCommand& command, const common::SceneFile& file, cons
 int main(int argc, char** argv) {
     return common::run_guarded("cmps", [&] {
         const auto command = common::read_stage_command(
-            argc, argv, {.program = "cmps", .description = "near field at the structure: corrected moving particles", .upstream_option = "--waves"});
+            argc, argv,
+            {.program = "cmps",
+             .description = "near field at the structure: corrected moving particles",
+             .upstream_option = "--waves"});
         common::use_threads(command.threads);
         const auto file = common::SceneFile::read(command.scene, command.overrides);
         cmps::Scene scene = cmps::read_scene(file);

@@ -13,7 +13,8 @@ constexpr std::size_t most_levels = 16;
 
 }  // namespace
 
-void Multigrid::build(const SparseMatrix& matrix, const std::vector<double>& x, const std::vector<double>& z, double box) {
+void Multigrid::build(const SparseMatrix& matrix, const std::vector<double>& x, const std::vector<double>& z,
+                      double box) {
     finest_ = &matrix;
     if (levels_.size() < most_levels) levels_.resize(most_levels);
     const std::size_t rows = matrix.rows();
@@ -52,11 +53,13 @@ void Multigrid::gather(std::size_t level) {
     fine.parent.resize(rows);
     coarse.box_x.clear(), coarse.box_z.clear();
     const auto box_of = [&](std::size_t i) {
-        return static_cast<std::size_t>(fine.box_x[i]) * static_cast<std::size_t>(lines) + static_cast<std::size_t>(fine.box_z[i]);
+        return static_cast<std::size_t>(fine.box_x[i]) * static_cast<std::size_t>(lines) +
+               static_cast<std::size_t>(fine.box_z[i]);
     };
     for (std::size_t i = 0; i < rows; ++i) number[box_of(i)] = 0;
     std::int32_t next = 0;
-    for (std::size_t b = 0; b < number.size(); ++b) {  // in the order of place: coarse rows stay near their neighbours
+    for (std::size_t b = 0; b < number.size();
+         ++b) {  // in the order of place: coarse rows stay near their neighbours
         if (number[b] < 0) continue;
         number[b] = next++;
         coarse.box_x.push_back(static_cast<std::int32_t>(b / static_cast<std::size_t>(lines)) / 2);
@@ -67,14 +70,16 @@ void Multigrid::gather(std::size_t level) {
         fine.parent[i] = number[box_of(i)];
         ++fine.child_start[static_cast<std::size_t>(fine.parent[i]) + 1];
     }
-    for (std::size_t c = 0; c < static_cast<std::size_t>(next); ++c) fine.child_start[c + 1] += fine.child_start[c];
+    for (std::size_t c = 0; c < static_cast<std::size_t>(next); ++c)
+        fine.child_start[c + 1] += fine.child_start[c];
     fine.order.assign(fine.child_start.begin(), fine.child_start.end() - 1);
     fine.children.resize(rows);
     for (std::size_t i = 0; i < rows; ++i)
         fine.children[fine.order[static_cast<std::size_t>(fine.parent[i])]++] = static_cast<std::int32_t>(i);
 }
 
-/// Galerkin product with constant prolongation: entries of a box's unknowns are summed by the boxes they lead to.
+/// Galerkin product with constant prolongation: entries of a box's unknowns are summed by the boxes they lead
+/// to.
 void Multigrid::coarsen(std::size_t level) {
     const SparseMatrix& fine = matrix_of(level);
     const Level& here = levels_[level];
@@ -104,7 +109,8 @@ void Multigrid::coarsen(std::size_t level) {
                 coarse.value[place] += fine.value[k];
             }
         }
-        // sweeps need the entries left of the diagonal apart from those right of it; their order within does not matter
+        // sweeps need the entries left of the diagonal apart from those right of it; their order within does
+        // not matter
         auto end = static_cast<std::uint32_t>(coarse.column.size());
         std::uint32_t left = begin;
         for (std::size_t k = begin; k < end; ++k)
@@ -125,7 +131,8 @@ void Multigrid::factorise_coarsest() {
     dense_.assign(n * n, 0.0);
     for (std::size_t i = 0; i < n; ++i) {
         dense_[i * n + i] = matrix.diagonal[i];
-        for (std::size_t k = matrix.start[i]; k < matrix.upper[i]; ++k) dense_[i * n + static_cast<std::size_t>(matrix.column[k])] = matrix.value[k];
+        for (std::size_t k = matrix.start[i]; k < matrix.upper[i]; ++k)
+            dense_[i * n + static_cast<std::size_t>(matrix.column[k])] = matrix.value[k];
     }
     for (std::size_t i = 0; i < n; ++i) {
         double* const row = &dense_[i * n];
@@ -139,7 +146,9 @@ void Multigrid::factorise_coarsest() {
     }
 }
 
-void Multigrid::apply(const std::vector<double>& right, std::vector<double>& result) { cycle(0, right, result); }
+void Multigrid::apply(const std::vector<double>& right, std::vector<double>& result) {
+    cycle(0, right, result);
+}
 
 void Multigrid::cycle(std::size_t level, const std::vector<double>& right, std::vector<double>& result) {
     const SparseMatrix& matrix = matrix_of(level);
@@ -177,7 +186,8 @@ void Multigrid::cycle(std::size_t level, const std::vector<double>& right, std::
         coarse.right[static_cast<std::size_t>(here.parent[i])] += sum;
     }
     cycle(level + 1, coarse.right, coarse.result);
-    for (std::size_t i = 0; i < rows; ++i) x[i] += enlargement * coarse.result[static_cast<std::size_t>(here.parent[i])];
+    for (std::size_t i = 0; i < rows; ++i)
+        x[i] += enlargement * coarse.result[static_cast<std::size_t>(here.parent[i])];
     // backwards
     for (std::size_t i = rows; i-- > 0;) {
         double sum = right[i];

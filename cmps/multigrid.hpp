@@ -1,8 +1,9 @@
-/// Aggregation multigrid as a preconditioner: one symmetric V-cycle, Gauss-Seidel forwards down and backwards up.
+/// Aggregation multigrid as a preconditioner: one symmetric V-cycle, Gauss-Seidel forwards down and backwards
+/// up.
 ///
-/// Unknowns are gathered by place: boxes of 2 l0, then boxes of boxes. Prolongation is constant over a box, coarse
-/// matrices are Galerkin products, the coarse correction is enlarged by 1.6 (constant prolongation underestimates it), the
-/// coarsest level is solved directly.
+/// Unknowns are gathered by place: boxes of 2 l0, then boxes of boxes. Prolongation is constant over a box,
+/// coarse matrices are Galerkin products, the coarse correction is enlarged by 1.6 (constant prolongation
+/// underestimates it), the coarsest level is solved directly.
 #pragma once
 
 #include <cstdint>
@@ -14,22 +15,25 @@ namespace cmps {
 
 class Multigrid {
  public:
-    /// Builds all levels for the matrix, which must outlive the preconditioner's use. x, z: place of every unknown;
-    /// `box`: edge of the first boxes, m.
-    void build(const SparseMatrix& matrix, const std::vector<double>& x, const std::vector<double>& z, double box);
+    /// Builds all levels for the matrix, which must outlive the preconditioner's use. x, z: place of every
+    /// unknown; `box`: edge of the first boxes, m.
+    void build(const SparseMatrix& matrix, const std::vector<double>& x, const std::vector<double>& z,
+               double box);
     /// result = M^-1 right
     void apply(const std::vector<double>& right, std::vector<double>& result);
 
  private:
     struct Level {
-        SparseMatrix matrix;                       ///< of this level; empty on the finest, which is the caller's
-        std::vector<std::int32_t> parent;          ///< coarse unknown of every unknown of this level
-        std::vector<std::int32_t> box_x, box_z;    ///< box of every unknown of this level
+        SparseMatrix matrix;               ///< of this level; empty on the finest, which is the caller's
+        std::vector<std::int32_t> parent;  ///< coarse unknown of every unknown of this level
+        std::vector<std::int32_t> box_x, box_z;  ///< box of every unknown of this level
         std::vector<std::uint32_t> child_start, order;
         std::vector<double> inverse_diagonal, right, result;
-        std::vector<std::int32_t> children;        ///< unknowns of this level by parent
+        std::vector<std::int32_t> children;  ///< unknowns of this level by parent
     };
-    const SparseMatrix& matrix_of(std::size_t level) const { return level == 0 ? *finest_ : levels_[level].matrix; }
+    const SparseMatrix& matrix_of(std::size_t level) const {
+        return level == 0 ? *finest_ : levels_[level].matrix;
+    }
     void gather(std::size_t level);
     void coarsen(std::size_t level);
     void factorise_coarsest();

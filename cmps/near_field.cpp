@@ -12,7 +12,7 @@
 namespace cmps {
 namespace {
 
-constexpr double skin_ratio = 0.3;       // of l0; lists live for about ten steps
+constexpr double skin_ratio = 0.3;  // of l0; lists live for about ten steps
 constexpr std::size_t serial_below = 4000;
 
 std::variant<RationalKernel, WendlandKernel> make_kernel(const Settings& settings) {
@@ -95,9 +95,11 @@ void NearField::update_geometry() {
         if (search.update(particles, {&old_u_, &old_w_})) ++counts.list_builds;
     }
     const common::PhaseTimer timer(seconds.geometry);
-    std::visit([&](const auto& kernel) {
-        compute_interactions(kernel, particles, search.lists(), equation.extras(), interactions);
-    }, kernel_);
+    std::visit(
+        [&](const auto& kernel) {
+            compute_interactions(kernel, particles, search.lists(), equation.extras(), interactions);
+        },
+        kernel_);
     find_free_surface(particles, search.lists(), interactions, lattice.number_density, place);
 }
 
@@ -109,7 +111,8 @@ void NearField::solve_pressure(double step) {
     const common::PhaseTimer timer(seconds.solve);
     const std::size_t first = particles.first_wall(), unknowns = equation.row_of.size();
     unknown_pressure_.resize(unknowns);
-    for (std::size_t a = 0; a < unknowns; ++a) unknown_pressure_[a] = particles.pressure[first + equation.row_of[a]];
+    for (std::size_t a = 0; a < unknowns; ++a)
+        unknown_pressure_[a] = particles.pressure[first + equation.row_of[a]];
     SolveReport report;
     if (unknowns < settings.multigrid_from) {
         report = solver_.solve(equation.matrix, equation.right_hand_side, unknown_pressure_);
@@ -119,8 +122,8 @@ void NearField::solve_pressure(double step) {
             unknown_x_[a] = particles.x[first + equation.row_of[a]];
             unknown_z_[a] = particles.z[first + equation.row_of[a]];
         }
-        report = solver_.solve(equation.matrix, equation.right_hand_side, unknown_pressure_, unknown_x_, unknown_z_,
-                               2.0 * settings.spacing);
+        report = solver_.solve(equation.matrix, equation.right_hand_side, unknown_pressure_, unknown_x_,
+                               unknown_z_, 2.0 * settings.spacing);
     }
     counts.iterations += report.iterations;
     if (!report.is_converged) ++counts.unconverged;
@@ -161,11 +164,13 @@ void NearField::apply_gradient(double step) {
     largest_acceleration_ = std::sqrt(strongest);
 }
 
-/// Dynamic stabilisation, collisions and wall contact, for pairs that the pressure has left too near each other.
+/// Dynamic stabilisation, collisions and wall contact, for pairs that the pressure has left too near each
+/// other.
 ///
-/// DS: below 0.9 l0 half the missing distance is made up over the reference step (all of it at walls); the push is
-/// capped at 0.1 l0, so that a small adaptive step does not feed it. Collisions: below 0.5 l0 approaching pairs meet
-/// with restitution 0.2. Contact: no particle crosses the face that its nearest wall particle stands behind.
+/// DS: below 0.9 l0 half the missing distance is made up over the reference step (all of it at walls); the
+/// push is capped at 0.1 l0, so that a small adaptive step does not feed it. Collisions: below 0.5 l0
+/// approaching pairs meet with restitution 0.2. Contact: no particle crosses the face that its nearest wall
+/// particle stands behind.
 void NearField::push_apart(double step) {
     const std::size_t first = particles.first_fluid(), walls = particles.walls;
     const double l0 = settings.spacing, reach = settings.stabilisation * l0, touching = 0.5 * l0;
@@ -214,7 +219,8 @@ void NearField::push_apart(double step) {
         particles.u[first + f] += change_u_[f], particles.w[first + f] += change_w_[f];
 }
 
-/// Particle shifting: dr = -0.3 (l0^2/n0) sum w r_ij / r^2, at most 0.05 l0; none at the surface, along it next to it.
+/// Particle shifting: dr = -0.3 (l0^2/n0) sum w r_ij / r^2, at most 0.05 l0; none at the surface, along it
+/// next to it.
 void NearField::shift() {
     if (settings.shifting == 0) return;
     const common::PhaseTimer timer(seconds.motion);
@@ -253,15 +259,19 @@ void NearField::settle(int sweeps, double surface_level) {
 void NearField::check(double time, double step) const {
     const double g = std::hypot(settings.gravity_x, settings.gravity_z);
     // free fall over five depths: no water in the scene is faster
-    const double limit = 5.0 * std::sqrt(2.0 * std::max(g, 1.0) * std::max(settings.depth, settings.spacing)) + 5.0;
+    const double limit =
+        5.0 * std::sqrt(2.0 * std::max(g, 1.0) * std::max(settings.depth, settings.spacing)) + 5.0;
     if (largest_speed_ < limit) return;
     std::size_t worst = particles.first_fluid();
     for (std::size_t i = worst; i < particles.size(); ++i)
-        if (!(std::hypot(particles.u[i], particles.w[i]) <= std::hypot(particles.u[worst], particles.w[worst]))) worst = i;
-    throw common::RunError(fmt::format(
-        "unstable at t = {:.4f} s (step {} of {:.2e} s): particle {} at ({:.3f}, {:.3f}) m moves at {:.3g} m/s, limit {:.3g}",
-        time + step, counts.steps, step, particles.identity[worst], particles.x[worst], particles.z[worst],
-        std::hypot(particles.u[worst], particles.w[worst]), limit));
+        if (!(std::hypot(particles.u[i], particles.w[i]) <=
+              std::hypot(particles.u[worst], particles.w[worst])))
+            worst = i;
+    throw common::RunError(
+        fmt::format("unstable at t = {:.4f} s (step {} of {:.2e} s): particle {} at ({:.3f}, {:.3f}) m moves "
+                    "at {:.3g} m/s, limit {:.3g}",
+                    time + step, counts.steps, step, particles.identity[worst], particles.x[worst],
+                    particles.z[worst], std::hypot(particles.u[worst], particles.w[worst]), limit));
 }
 
 }  // namespace cmps

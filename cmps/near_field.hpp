@@ -43,14 +43,16 @@ struct PhaseSeconds {
 
 /// What the steps so far have met.
 struct StepCounts {
-    std::size_t steps = 0, iterations = 0, list_builds = 0, unconverged = 0, wall_contacts = 0, collisions = 0;
+    std::size_t steps = 0, iterations = 0, list_builds = 0, unconverged = 0, wall_contacts = 0,
+                collisions = 0;
 };
 
 class NearField {
  public:
     NearField(const Settings& settings, Particles initial);
 
-    /// Spreads the particles evenly by shifting alone (before the first step), then sets hydrostatic pressure.
+    /// Spreads the particles evenly by shifting alone (before the first step), then sets hydrostatic
+    /// pressure.
     void settle(int sweeps, double surface_level);
     /// Largest step now, s: 0.2 l0/u, 0.4 l0/sqrt(g h), 0.25 sqrt(l0/a).
     double largest_step() const;
@@ -63,8 +65,8 @@ class NearField {
     std::vector<std::unique_ptr<Effect>> effects;
 
     NeighbourSearch search;
-    Interactions interactions;    ///< at the positions of the last pressure solve
-    std::vector<Place> place;     ///< per carrier row
+    Interactions interactions;  ///< at the positions of the last pressure solve
+    std::vector<Place> place;   ///< per carrier row
     PressureEquation equation;
     PhaseSeconds seconds;
     StepCounts counts;
@@ -84,7 +86,8 @@ class NearField {
     std::variant<RationalKernel, WendlandKernel> kernel_;
     PressureSolver solver_;
     GradientTerm gradient_;
-    std::vector<double> gradient_x_, gradient_z_, unknown_pressure_, unknown_x_, unknown_z_, old_u_, old_w_, change_u_, change_w_;
+    std::vector<double> gradient_x_, gradient_z_, unknown_pressure_, unknown_x_, unknown_z_, old_u_, old_w_,
+        change_u_, change_w_;
     double largest_speed_ = 0, largest_acceleration_ = 0;
 
  public:

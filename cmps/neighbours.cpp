@@ -55,14 +55,15 @@ bool NeighbourSearch::update(Particles& particles, const std::vector<std::vector
     const double* const x = particles.x.data();
     const double* const z = particles.z.data();
     const std::size_t first_fluid = particles.first_fluid();
-    // Writes the neighbours of row r, ascending, to `out` (room for all candidates); returns how many, and how many
-    // of them are dummies.
+    // Writes the neighbours of row r, ascending, to `out` (room for all candidates); returns how many, and
+    // how many of them are dummies.
     const auto collect = [&](std::size_t r, std::int32_t* out, std::uint32_t& dummies) {
         const auto i = static_cast<std::int32_t>(first + r);
         const double xi = x[i], zi = z[i];
         const std::size_t column = cells.column(xi), row = cells.row(zi);
         const std::size_t row0 = row > 2 ? row - 2 : 0, row1 = std::min(row + 2, cells.rows - 1);
-        const std::size_t column0 = column > 2 ? column - 2 : 0, column1 = std::min(column + 2, cells.columns - 1);
+        const std::size_t column0 = column > 2 ? column - 2 : 0,
+                          column1 = std::min(column + 2, cells.columns - 1);
         std::uint32_t found = 0;
         const auto test = [&](std::int32_t j) {
             const double dx = x[j] - xi, dz = z[j] - zi;
@@ -71,13 +72,17 @@ bool NeighbourSearch::update(Particles& particles, const std::vector<std::vector
         };
         for (std::size_t c = column0; c <= column1; ++c) {
             const std::uint32_t end = boundary_start_[c * cells.rows + row1 + 1];
-            for (std::size_t m = boundary_start_[c * cells.rows + row0]; m < end; ++m) test(boundary_members_[m]);
+            for (std::size_t m = boundary_start_[c * cells.rows + row0]; m < end; ++m)
+                test(boundary_members_[m]);
         }
         std::sort(out, out + found);
-        dummies = static_cast<std::uint32_t>(std::lower_bound(out, out + found, static_cast<std::int32_t>(first)) - out);
+        dummies = static_cast<std::uint32_t>(
+            std::lower_bound(out, out + found, static_cast<std::int32_t>(first)) - out);
         for (std::size_t c = column0; c <= column1; ++c) {
             const auto end = static_cast<std::int32_t>(first_fluid + fluid_start_[c * cells.rows + row1 + 1]);
-            for (auto j = static_cast<std::int32_t>(first_fluid + fluid_start_[c * cells.rows + row0]); j < end; ++j) test(j);
+            for (auto j = static_cast<std::int32_t>(first_fluid + fluid_start_[c * cells.rows + row0]);
+                 j < end; ++j)
+                test(j);
         }
         return found;
     };
@@ -136,7 +141,8 @@ void NeighbourSearch::sort_fluid(Particles& particles, const Cells& cells,
         start = sum;
         sum += here;
     }
-    for (std::size_t f = 0; f < count; ++f) order_[fluid_start_[cell_of_[f]]++] = static_cast<std::int32_t>(f);
+    for (std::size_t f = 0; f < count; ++f)
+        order_[fluid_start_[cell_of_[f]]++] = static_cast<std::int32_t>(f);
     for (std::size_t c = fluid_start_.size() - 1; c > 0; --c) fluid_start_[c] = fluid_start_[c - 1];
     fluid_start_[0] = 0;
     if (std::is_sorted(order_.begin(), order_.end())) return;
@@ -148,7 +154,8 @@ void NeighbourSearch::sort_fluid(Particles& particles, const Cells& cells,
                 return real_buffer_;
             else
                 return integer_buffer_;
-        }();
+        }
+        ();
         buffer.resize(count);
         for (std::size_t f = 0; f < count; ++f) buffer[f] = array[first + order_[f]];
         std::copy(buffer.begin(), buffer.end(), array.begin() + static_cast<std::ptrdiff_t>(first));

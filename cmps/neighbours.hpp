@@ -9,30 +9,32 @@
 namespace cmps {
 
 /// Lists, for every pressure carrier i, of all particles within radius + skin, ascending: dummies first.
-/// Row r belongs to particle first_wall() + r; its entries are [start[r], start[r + 1]), those from `carriers[r]`
-/// on carry pressure themselves.
+/// Row r belongs to particle first_wall() + r; its entries are [start[r], start[r + 1]), those from
+/// `carriers[r]` on carry pressure themselves.
 struct NeighbourLists {
     std::vector<std::uint32_t> start, carriers;
     std::vector<std::int32_t> neighbour;
 };
 
-/// Keeps lists valid while particles move less than half the skin. At every rebuild the fluid is put in the order of
-/// its cells, column after column, so that the candidates of a particle are three short runs of indices.
+/// Keeps lists valid while particles move less than half the skin. At every rebuild the fluid is put in the
+/// order of its cells, column after column, so that the candidates of a particle are three short runs of
+/// indices.
 class NeighbourSearch {
  public:
     /// radius: of the kernel, m; skin: m.
     NeighbourSearch(double radius, double skin) : radius_(radius), skin_(skin) {}
 
-    /// Rebuilds the lists, and reorders the fluid, when a particle has moved half the skin since, or when `invalidate`
-    /// was called. `companions` are further arrays over all particles that must follow the new order.
-    /// Returns true when it did.
+    /// Rebuilds the lists, and reorders the fluid, when a particle has moved half the skin since, or when
+    /// `invalidate` was called. `companions` are further arrays over all particles that must follow the new
+    /// order. Returns true when it did.
     bool update(Particles& particles, const std::vector<std::vector<double>*>& companions);
     void invalidate() { is_valid_ = false; }
     const NeighbourLists& lists() const { return lists_; }
 
  private:
     struct Cells;
-    void sort_fluid(Particles& particles, const Cells& cells, const std::vector<std::vector<double>*>& companions);
+    void sort_fluid(Particles& particles, const Cells& cells,
+                    const std::vector<std::vector<double>*>& companions);
     void sort_boundary(const Particles& particles, const Cells& cells);
     double radius_, skin_;
     bool is_valid_ = false;

@@ -8,15 +8,19 @@
 namespace cmps {
 
 /// What a boundary particle belongs to.
-enum Body : std::int32_t { body_bed = -1, body_moving_wall = -2, body_end_wall = -3 };  // >= 0: structure polygon
+enum Body : std::int32_t {
+    body_bed = -1,
+    body_moving_wall = -2,
+    body_end_wall = -3
+};  // >= 0: structure polygon
 
 /// Dummies only fill the kernel behind a wall; walls (one layer) and fluid carry pressure.
 /// Pressure carriers are contiguous: [first_wall(), size()).
 struct Particles {
     std::size_t dummies = 0, walls = 0, fluid = 0;
-    std::vector<double> x, z;      ///< position, m
-    std::vector<double> u, w;      ///< velocity, m/s
-    std::vector<double> pressure;  ///< Pa, gauge
+    std::vector<double> x, z;                            ///< position, m
+    std::vector<double> u, w;                            ///< velocity, m/s
+    std::vector<double> pressure;                        ///< Pa, gauge
     std::vector<double> acceleration_x, acceleration_z;  ///< Du/Dt along the path, smoothed, m/s2
     std::vector<std::int32_t> identity;                  ///< lasting number of a fluid particle
     std::vector<std::int32_t> body;                      ///< of boundary particles; fluid: 0

@@ -92,7 +92,9 @@ void PressureEquation::assemble(const Particles& particles, const NeighbourLists
             matrix.value[next++] = -c;
         }
         if (!is_right) matrix.upper[a] = next;
-        if (is_smooth) diagonal += missing_kernel(interactions, row) * (is_higher_order ? lattice_.laplacian_ratio : 1.0);
+        if (is_smooth)
+            diagonal +=
+                missing_kernel(interactions, row) * (is_higher_order ? lattice_.laplacian_ratio : 1.0);
         // a closed full box has no surface: the small excess makes it regular and fixes the mean
         matrix.diagonal[a] = std::max(diagonal, 1e-3 * n0) * (1 + 1e-7);
         matrix.start[a + 1] = next;
@@ -100,15 +102,16 @@ void PressureEquation::assemble(const Particles& particles, const NeighbourLists
     common::parallel_for(rows, 2000, [&](std::size_t row) {
         density_error[row] = (interactions.number_density[row] - n0) / n0;
         if (unknown_of[row] < 0) return;
-        // At the surface the kernel is cut short and the volume free to change: only p = 0 holds there. A wall, though,
-        // answers to water that comes at it before the kernel between them has filled.
+        // At the surface the kernel is cut short and the volume free to change: only p = 0 holds there. A
+        // wall, though, answers to water that comes at it before the kernel between them has filled.
         const double inner = is_smooth ? 1 - surface_share(interactions, row) : 1.0;
         double source = inner * settings_.density_weight / time_step * density_error[row];
         if (settings_.source != Source::density) {
             const double convergence = -divergence(particles, lists, interactions, row);
             source += row < particles.walls && convergence > 0 ? convergence : inner * convergence;
         }
-        right_hand_side[static_cast<std::size_t>(unknown_of[row])] = scale * settings_.density / time_step * source;
+        right_hand_side[static_cast<std::size_t>(unknown_of[row])] =
+            scale * settings_.density / time_step * source;
     });
 }
 

@@ -2,12 +2,13 @@
 ///
 ///     sum_j 4/(lambda n0) w (p_i - p_j) = rho/dt [ -div u*_i + gamma/dt (n_i - n0)/n0 ]
 ///
-/// as a symmetric matrix A_ij = -c_ij, c_ij = w_ij (or the higher-order coefficient), over the carriers whose pressure
-/// is unknown; p = 0 at the surface; dummies are left out (Neumann).
+/// as a symmetric matrix A_ij = -c_ij, c_ij = w_ij (or the higher-order coefficient), over the carriers whose
+/// pressure is unknown; p = 0 at the surface; dummies are left out (Neumann).
 ///
 /// Sources for div u*:
 ///     density      none; the density term alone, gamma given            (Koshizuka & Oka 1996)
-///     higher_order (1/(n0 S)) sum (-w'/r) r_ij . u*_ij                  (HS, Khayyer & Gotoh 2009; S makes it exact for
+///     higher_order (1/(n0 S)) sum (-w'/r) r_ij . u*_ij                  (HS, Khayyer & Gotoh 2009; S makes
+///     it exact for
 ///                                                                        a linear velocity on the lattice)
 ///     corrected    D/n0 sum u*_ij . (C_i r_ij) w / r^2                  exact for a linear velocity anywhere
 /// with, when asked for, the error-compensating parts (ECS, Khayyer & Gotoh 2011) in place of constant gamma.
@@ -45,7 +46,8 @@ class PressureEquation {
         : settings_(settings), lattice_(lattice) {}
     /// What this equation needs of the pairs.
     PairExtras extras() const {
-        return {.slope = settings_.source == Source::higher_order || settings_.source == Source::error_compensating,
+        return {.slope = settings_.source == Source::higher_order ||
+                         settings_.source == Source::error_compensating,
                 .curvature = settings_.laplacian == Laplacian::higher_order};
     }
 
@@ -60,8 +62,8 @@ class PressureEquation {
     std::vector<double> density_error;     ///< (n - n0)/n0 per carrier row
 
  private:
-    double divergence(const Particles& particles, const NeighbourLists& lists, const Interactions& interactions,
-                      std::size_t row) const;
+    double divergence(const Particles& particles, const NeighbourLists& lists,
+                      const Interactions& interactions, std::size_t row) const;
     /// 0 inside, 1 at the surface, by the asymmetry of the neighbourhood.
     double surface_share(const Interactions& interactions, std::size_t row) const;
     /// What the mirrored water above the surface adds to the diagonal.

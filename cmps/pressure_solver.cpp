@@ -51,21 +51,24 @@ void IncompleteCholesky::apply(const std::vector<double>& r, std::vector<double>
     }
 }
 
-SolveReport PressureSolver::solve(const SparseMatrix& matrix, const std::vector<double>& b, std::vector<double>& x) {
+SolveReport PressureSolver::solve(const SparseMatrix& matrix, const std::vector<double>& b,
+                                  std::vector<double>& x) {
     return iterate(
-        matrix, b, x, [&] { cholesky_.factorise(matrix); }, [&](const auto& r, auto& z) { cholesky_.apply(r, z); });
+        matrix, b, x, [&] { cholesky_.factorise(matrix); },
+        [&](const auto& r, auto& z) { cholesky_.apply(r, z); });
 }
 
-SolveReport PressureSolver::solve(const SparseMatrix& matrix, const std::vector<double>& b, std::vector<double>& x,
-                                  const std::vector<double>& at_x, const std::vector<double>& at_z, double box) {
+SolveReport PressureSolver::solve(const SparseMatrix& matrix, const std::vector<double>& b,
+                                  std::vector<double>& x, const std::vector<double>& at_x,
+                                  const std::vector<double>& at_z, double box) {
     return iterate(
         matrix, b, x, [&] { multigrid_.build(matrix, at_x, at_z, box); },
         [&](const auto& r, auto& z) { multigrid_.apply(r, z); });
 }
 
 template <class Build, class Apply>
-SolveReport PressureSolver::iterate(const SparseMatrix& matrix, const std::vector<double>& b, std::vector<double>& x,
-                                    const Build& build, const Apply& apply) {
+SolveReport PressureSolver::iterate(const SparseMatrix& matrix, const std::vector<double>& b,
+                                    std::vector<double>& x, const Build& build, const Apply& apply) {
     const std::size_t rows = matrix.rows();
     SolveReport report;
     if (rows == 0) return {.iterations = 0, .residual = 0, .is_converged = true};

@@ -1,4 +1,5 @@
-/// Conjugate gradients for the pressure equation, warm-started, with incomplete Cholesky or aggregation multigrid.
+/// Conjugate gradients for the pressure equation, warm-started, with incomplete Cholesky or aggregation
+/// multigrid.
 #pragma once
 
 #include <cstddef>

@@ -28,28 +28,34 @@ void check_polygons(const Section& section, const char* key, std::vector<Polygon
         Polygon& polygon = polygons[i];
         if (polygon.size() > 1 && polygon.front() == polygon.back()) polygon.pop_back();
         if (polygon.size() < 3) {
-            section.problem(key, fmt::format("polygon {} has {} points; a closed polygon needs at least 3", i + 1, polygon.size()));
+            section.problem(key, fmt::format("polygon {} has {} points; a closed polygon needs at least 3",
+                                             i + 1, polygon.size()));
             continue;
         }
         std::array<std::size_t, 2> where{};
         if (crosses_itself(polygon, where))
-            section.problem(key, fmt::format("polygon {} crosses itself: edges {} and {}", i + 1, where[0], where[1]));
+            section.problem(
+                key, fmt::format("polygon {} crosses itself: edges {} and {}", i + 1, where[0], where[1]));
     }
 }
 
 /// Resolution and schemes of the accuracy levels: particles over the depth of still water at the wall.
 int particles_over_depth(common::Accuracy accuracy) {
     switch (accuracy) {
-        case common::Accuracy::draft: return 16;
-        case common::Accuracy::standard: return 30;
-        case common::Accuracy::fine: return 50;
+        case common::Accuracy::draft:
+            return 16;
+        case common::Accuracy::standard:
+            return 30;
+        case common::Accuracy::fine:
+            return 50;
     }
     return 30;
 }
 
 void read_geometry(const common::SceneFile& file, const Section& section, Scene& scene) {
     if (section.has("tank")) {
-        const auto box = section.numbers("tank", "m", "closed box x0, x1, z0, z1 instead of a flume bed", 4, Range::any());
+        const auto box =
+            section.numbers("tank", "m", "closed box x0, x1, z0, z1 instead of a flume bed", 4, Range::any());
         if (box[1] <= box[0] || box[3] <= box[2])
             section.problem("tank", "expected x0 < x1 and z0 < z1");
         else
@@ -61,12 +67,16 @@ void read_geometry(const common::SceneFile& file, const Section& section, Scene&
     const double x1 = scene.tank ? (*scene.tank)[1] : scene.bed.empty() ? 1.0 : scene.bed.back()[0];
     scene.offshore = section.number("offshore", "m", "x of the moving wall", Range::any(), x0);
     scene.onshore = section.number("onshore", "m", "x of the shoreward end", Range::any(), x1);
-    scene.structure = section.polygons("structure", "m", "closed polygons of the structure", std::vector<Polygon>{});
+    scene.structure =
+        section.polygons("structure", "m", "closed polygons of the structure", std::vector<Polygon>{});
     check_polygons(section, "structure", scene.structure);
-    scene.water = section.polygons("water", "m", "closed polygons filled with water at the start; none: below z = 0 between wall and structure",
-                                   std::vector<Polygon>{});
+    scene.water = section.polygons(
+        "water", "m",
+        "closed polygons filled with water at the start; none: below z = 0 between wall and structure",
+        std::vector<Polygon>{});
     check_polygons(section, "water", scene.water);
-    if (scene.onshore <= scene.offshore) section.problem("onshore", fmt::format("must lie shoreward of cmps.offshore = {:g}", scene.offshore));
+    if (scene.onshore <= scene.offshore)
+        section.problem("onshore", fmt::format("must lie shoreward of cmps.offshore = {:g}", scene.offshore));
     if (!scene.tank && !scene.bed.empty() && (scene.offshore < x0 || scene.onshore > x1))
         section.problem(scene.offshore < x0 ? "offshore" : "onshore",
                         fmt::format("lies outside the flume's bed, x = {:g} to {:g} m", x0, x1));
@@ -75,80 +85,130 @@ void read_geometry(const common::SceneFile& file, const Section& section, Scene&
 void read_numerics(const common::SceneFile& file, const Section& section, Scene& scene, double depth) {
     Settings& settings = scene.settings;
     const int over_depth = particles_over_depth(file.accuracy());
-    settings.spacing = section.number("particle_spacing", "m", "l0; default: a whole number of particles over the depth at the wall (draft 16, standard 30, fine 50)",
+    settings.spacing = section.number("particle_spacing", "m",
+                                      "l0; default: a whole number of particles over the depth at the wall "
+                                      "(draft 16, standard 30, fine 50)",
                                       Range::positive(), depth / over_depth);
     if (settings.spacing > 0.34 * depth)
-        section.problem("particle_spacing", fmt::format("{:g} m is too coarse: the water is {:g} m deep, at least three particles must stand in it", settings.spacing, depth));
+        section.problem(
+            "particle_spacing",
+            fmt::format(
+                "{:g} m is too coarse: the water is {:g} m deep, at least three particles must stand in it",
+                settings.spacing, depth));
     settings.depth = depth;
-    settings.kernel = chosen<KernelKind>(section, "kernel", "weight function",
-                                         {{"wendland", KernelKind::wendland}, {"rational", KernelKind::rational}}, "wendland");
-    settings.kernel_radius_ratio = section.number("kernel_radius", "-", "radius of the kernel over l0", Range::between(1.6, 5.0), 2.6);
-    settings.time_stepping = chosen<TimeStepping>(section, "time_stepping", "order of drift and pressure: midpoint (second order) or predicted (the paper's)",
-                                                  {{"midpoint", TimeStepping::midpoint}, {"predicted", TimeStepping::predicted}}, "midpoint");
-    settings.gradient = chosen<Gradient>(section, "gradient", "pressure gradient: eq. (1), (4), (5) with local or global minima, or corrected",
-                                         {{"standard", Gradient::standard}, {"modified", Gradient::modified},
-                                          {"antisymmetric_local", Gradient::antisymmetric_local},
-                                          {"antisymmetric", Gradient::antisymmetric_global}, {"corrected", Gradient::corrected}}, "corrected");
+    settings.kernel = chosen<KernelKind>(
+        section, "kernel", "weight function",
+        {{"wendland", KernelKind::wendland}, {"rational", KernelKind::rational}}, "wendland");
+    settings.kernel_radius_ratio =
+        section.number("kernel_radius", "-", "radius of the kernel over l0", Range::between(1.6, 5.0), 2.6);
+    settings.time_stepping = chosen<TimeStepping>(
+        section, "time_stepping",
+        "order of drift and pressure: midpoint (second order) or predicted (the paper's)",
+        {{"midpoint", TimeStepping::midpoint}, {"predicted", TimeStepping::predicted}}, "midpoint");
+    settings.gradient = chosen<Gradient>(
+        section, "gradient", "pressure gradient: eq. (1), (4), (5) with local or global minima, or corrected",
+        {{"standard", Gradient::standard},
+         {"modified", Gradient::modified},
+         {"antisymmetric_local", Gradient::antisymmetric_local},
+         {"antisymmetric", Gradient::antisymmetric_global},
+         {"corrected", Gradient::corrected}},
+        "corrected");
     settings.pressure.source = chosen<Source>(section, "source", "source of the pressure equation",
-                                              {{"density", Source::density}, {"higher_order", Source::higher_order},
-                                               {"corrected", Source::corrected}, {"error_compensating", Source::error_compensating}}, "higher_order");
-    settings.pressure.laplacian = chosen<Laplacian>(section, "laplacian", "Laplacian of the pressure equation",
-                                                    {{"standard", Laplacian::standard}, {"higher_order", Laplacian::higher_order}}, "standard");
-    settings.pressure.surface = chosen<SurfaceCondition>(section, "surface", "p = 0 at detected surface particles, or smoothly at the surface itself",
-                                                        {{"smooth", SurfaceCondition::smooth}, {"detected", SurfaceCondition::detected}}, "smooth");
-    settings.pressure.density_weight = section.number("density_weight", "-", "gamma, weight of the density term in the source", Range::between(0, 1), 0.02);
+                                              {{"density", Source::density},
+                                               {"higher_order", Source::higher_order},
+                                               {"corrected", Source::corrected},
+                                               {"error_compensating", Source::error_compensating}},
+                                              "higher_order");
+    settings.pressure.laplacian = chosen<Laplacian>(
+        section, "laplacian", "Laplacian of the pressure equation",
+        {{"standard", Laplacian::standard}, {"higher_order", Laplacian::higher_order}}, "standard");
+    settings.pressure.surface = chosen<SurfaceCondition>(
+        section, "surface", "p = 0 at detected surface particles, or smoothly at the surface itself",
+        {{"smooth", SurfaceCondition::smooth}, {"detected", SurfaceCondition::detected}}, "smooth");
+    settings.pressure.density_weight = section.number(
+        "density_weight", "-", "gamma, weight of the density term in the source", Range::between(0, 1), 0.02);
     settings.pressure.density = section.number("density", "kg/m3", "of water", Range::positive(), 1000.0);
     settings.negative_pressure = section.boolean("negative_pressure", "keep pressures below zero", false);
-    settings.tolerance = section.number("tolerance", "-", "of the pressure solve, relative to its right-hand side", Range::between(1e-12, 0.1), 1e-3);
-    settings.multigrid_from = static_cast<std::size_t>(section.integer("multigrid_from", "unknowns from which the pressure is preconditioned by multigrid", Range::not_negative(), 10000));
-    settings.shifting = section.number("shifting", "-", "coefficient of particle shifting, 0: none", Range::between(0, 1), 0.3);
-    settings.stabilisation = section.number("stabilisation", "-", "pairs nearer than this many l0 are pushed apart, 0: none", Range::between(0, 0.98), 0.9);
+    settings.tolerance =
+        section.number("tolerance", "-", "of the pressure solve, relative to its right-hand side",
+                       Range::between(1e-12, 0.1), 1e-3);
+    settings.multigrid_from = static_cast<std::size_t>(
+        section.integer("multigrid_from", "unknowns from which the pressure is preconditioned by multigrid",
+                        Range::not_negative(), 10000));
+    settings.shifting = section.number("shifting", "-", "coefficient of particle shifting, 0: none",
+                                       Range::between(0, 1), 0.3);
+    settings.stabilisation =
+        section.number("stabilisation", "-", "pairs nearer than this many l0 are pushed apart, 0: none",
+                       Range::between(0, 0.98), 0.9);
     settings.courant = section.number("courant", "-", "largest u dt / l0", Range::between(0.001, 0.5), 0.2);
-    const auto gravity = section.numbers("gravity", "m/s2", "x and z component", 2, Range::any(), std::vector<double>{0.0, -9.81});
+    const auto gravity = section.numbers("gravity", "m/s2", "x and z component", 2, Range::any(),
+                                         std::vector<double>{0.0, -9.81});
     settings.gravity_x = gravity[0], settings.gravity_z = gravity[1];
 }
 
 void read_drive(const Section& section, Scene& scene, double depth) {
-    scene.drive = chosen<Drive>(section, "drive", "what moves the offshore wall: windows of boussinesq, a piston's path, nothing",
-                                {{"waves", Drive::waves}, {"piston", Drive::piston}, {"none", Drive::none}}, scene.tank ? "none" : "waves");
-    scene.piston_file = section.file("piston_file", "CSV: t, displacement of the wall", scene.drive == Drive::piston);
+    scene.drive = chosen<Drive>(
+        section, "drive", "what moves the offshore wall: windows of boussinesq, a piston's path, nothing",
+        {{"waves", Drive::waves}, {"piston", Drive::piston}, {"none", Drive::none}},
+        scene.tank ? "none" : "waves");
+    scene.piston_file =
+        section.file("piston_file", "CSV: t, displacement of the wall", scene.drive == Drive::piston);
     scene.gravity_file = section.file("gravity_file", "CSV: t, gx, gz", false);
-    scene.boundary = chosen<Boundary>(section, "boundary", "offshore: relaxation zone, the paper's overflowing wall, or both",
-                                      {{"relaxation", Boundary::relaxation}, {"paper", Boundary::paper}, {"both", Boundary::both}}, "relaxation");
-    scene.crest_lowering = section.number("crest_lowering", "m", "h_of of eq. (7): how far the wall's crest stays below the waves' surface", Range::not_negative(), 0.19 * depth);
-    scene.relaxation_length = section.number("relaxation_length", "m", "of the zone behind the wall", Range::positive(), 3.0 * depth);
-    scene.relaxation_strength = section.number("relaxation_strength", "1/s", "at the wall", Range::positive(), 8.0);
-    scene.return_time = section.number("return_time", "s", "in which the wall comes back to its place", Range::positive(), 5.0);
-    scene.arrival_threshold = section.number("arrival_threshold", "m", "surface elevation at the wall that counts as arrival", Range::positive(), 0.005 * depth);
+    scene.boundary = chosen<Boundary>(
+        section, "boundary", "offshore: relaxation zone, the paper's overflowing wall, or both",
+        {{"relaxation", Boundary::relaxation}, {"paper", Boundary::paper}, {"both", Boundary::both}},
+        "relaxation");
+    scene.crest_lowering = section.number(
+        "crest_lowering", "m", "h_of of eq. (7): how far the wall's crest stays below the waves' surface",
+        Range::not_negative(), 0.19 * depth);
+    scene.relaxation_length = section.number("relaxation_length", "m", "of the zone behind the wall",
+                                             Range::positive(), 3.0 * depth);
+    scene.relaxation_strength =
+        section.number("relaxation_strength", "1/s", "at the wall", Range::positive(), 8.0);
+    scene.return_time = section.number("return_time", "s", "in which the wall comes back to its place",
+                                       Range::positive(), 5.0);
+    scene.arrival_threshold =
+        section.number("arrival_threshold", "m", "surface elevation at the wall that counts as arrival",
+                       Range::positive(), 0.005 * depth);
     if (section.has("start") && !section.is_text("start"))
-        scene.start = section.number("start", "s", "time at which the near field starts, or \"arrival\"", Range::not_negative());
+        scene.start = section.number("start", "s", "time at which the near field starts, or \"arrival\"",
+                                     Range::not_negative());
     else
-        section.choice("start", "time at which the near field starts, or \"arrival\"", {"arrival"}, "arrival");
-    scene.viscosity = section.number("viscosity", "m2/s", "kinematic; used by the effect viscosity", Range::not_negative(), 1e-6);
-    scene.smagorinsky = section.number("smagorinsky", "-", "constant of the sub-particle turbulence", Range::not_negative(), 0.15);
+        section.choice("start", "time at which the near field starts, or \"arrival\"", {"arrival"},
+                       "arrival");
+    scene.viscosity = section.number("viscosity", "m2/s", "kinematic; used by the effect viscosity",
+                                     Range::not_negative(), 1e-6);
+    scene.smagorinsky = section.number("smagorinsky", "-", "constant of the sub-particle turbulence",
+                                       Range::not_negative(), 0.15);
 }
 
 void read_output(const common::SceneFile& file, const Section& section, Scene& scene) {
-    scene.particles_interval = section.number("particles_interval", "s", "between stored particle pictures", Range::positive(), 0.1);
+    scene.particles_interval =
+        section.number("particles_interval", "s", "between stored particle pictures", Range::positive(), 0.1);
     if (!section.has("flow")) return;
     const Section flow = file.section("cmps.flow");
     scene.has_flow = true;
     const auto x = flow.numbers("x", "m", "range of the grid", 2, Range::any());
     const auto z = flow.numbers("z", "m", "range of the grid", 2, Range::any());
-    const double spacing = flow.number("spacing", "m", "of the grid", Range::positive(), scene.settings.spacing);
+    const double spacing =
+        flow.number("spacing", "m", "of the grid", Range::positive(), scene.settings.spacing);
     const double interval = flow.number("interval", "s", "between samples", Range::positive(), 0.02);
     if (x[1] <= x[0]) flow.problem("x", "expected [x0, x1] with x0 < x1");
     if (z[1] <= z[0]) flow.problem("z", "expected [z0, z1] with z0 < z1");
     if (scene.offshore < scene.onshore && (x[0] < scene.offshore || x[1] > scene.onshore))
-        flow.problem("x", fmt::format("the grid leaves the near field, x = {:g} to {:g} m", scene.offshore, scene.onshore));
+        flow.problem("x", fmt::format("the grid leaves the near field, x = {:g} to {:g} m", scene.offshore,
+                                      scene.onshore));
     scene.flow = {.x0 = x[0], .x1 = x[1], .z0 = z[0], .z1 = z[1], .spacing = spacing, .interval = interval};
-    scene.acceleration_smoothing = flow.number("acceleration_smoothing", "s", "time over which Du/Dt is averaged along the path", Range::not_negative(), interval);
+    scene.acceleration_smoothing =
+        flow.number("acceleration_smoothing", "s", "time over which Du/Dt is averaged along the path",
+                    Range::not_negative(), interval);
 }
 
 }  // namespace
 
 bool Scene::has_effect(const std::string& name) const {
-    return std::any_of(effects.begin(), effects.end(), [&](const auto& effect) { return effect.name == name && effect.is_on; });
+    return std::any_of(effects.begin(), effects.end(),
+                       [&](const auto& effect) { return effect.name == name && effect.is_on; });
 }
 
 double bottom_level(const Scene& scene, double x) {
@@ -163,9 +223,12 @@ Solid make_solid(const Scene& scene) {
         const auto [a, b, c, d] = *scene.tank;
         x0 = a, x1 = b, low = c, high = d;
         solid.add({{a - thick, c - thick}, {b + thick, c - thick}, {b + thick, c}, {a - thick, c}}, body_bed);
-        solid.add({{a - thick, d}, {b + thick, d}, {b + thick, d + thick}, {a - thick, d + thick}}, body_end_wall);
-        solid.add({{a - thick, c - thick}, {a, c - thick}, {a, d + thick}, {a - thick, d + thick}}, body_end_wall);
-        solid.add({{b, c - thick}, {b + thick, c - thick}, {b + thick, d + thick}, {b, d + thick}}, body_end_wall);
+        solid.add({{a - thick, d}, {b + thick, d}, {b + thick, d + thick}, {a - thick, d + thick}},
+                  body_end_wall);
+        solid.add({{a - thick, c - thick}, {a, c - thick}, {a, d + thick}, {a - thick, d + thick}},
+                  body_end_wall);
+        solid.add({{b, c - thick}, {b + thick, c - thick}, {b + thick, d + thick}, {b, d + thick}},
+                  body_end_wall);
     } else {
         Polygon bed(scene.bed.begin(), scene.bed.end());
         for (const Point& p : bed) low = std::min(low, p[1]);
@@ -174,15 +237,18 @@ Solid make_solid(const Scene& scene) {
         bed.push_back({bed.back()[0], low - 2 * thick});
         bed.push_back({bed.front()[0], low - 2 * thick});
         solid.add(bed, body_bed);
-        solid.add({{x1, low - thick}, {x1 + thick, low - thick}, {x1 + thick, 3.0 - low}, {x1, 3.0 - low}}, body_end_wall);
+        solid.add({{x1, low - thick}, {x1 + thick, low - thick}, {x1 + thick, 3.0 - low}, {x1, 3.0 - low}},
+                  body_end_wall);
         if (scene.drive == Drive::none) {
             const double x = scene.offshore;
             x0 = x;
-            solid.add({{x - thick, low - thick}, {x, low - thick}, {x, 3.0 - low}, {x - thick, 3.0 - low}}, body_end_wall);
+            solid.add({{x - thick, low - thick}, {x, low - thick}, {x, 3.0 - low}, {x - thick, 3.0 - low}},
+                      body_end_wall);
         }
         low -= thick, high = 2.5 - low;
     }
-    for (std::size_t k = 0; k < scene.structure.size(); ++k) solid.add(scene.structure[k], static_cast<std::int32_t>(k));
+    for (std::size_t k = 0; k < scene.structure.size(); ++k)
+        solid.add(scene.structure[k], static_cast<std::int32_t>(k));
     solid.find_surface({x0, low}, {x1, high});
     return solid;
 }
@@ -207,7 +273,8 @@ Scene read_scene(const common::SceneFile& file) {
         depth = high - low;
     }
     if (depth <= 0) {
-        section.problem(scene.tank ? "water" : "offshore", "there is no water: the bed lies above z = 0 and no cmps.water is given");
+        section.problem(scene.tank ? "water" : "offshore",
+                        "there is no water: the bed lies above z = 0 and no cmps.water is given");
         depth = 1.0;
     }
     read_numerics(file, section, scene, depth);
@@ -217,11 +284,15 @@ Scene read_scene(const common::SceneFile& file) {
     for (const Polygon& polygon : scene.structure) {
         double x0 = 1e300, x1 = -1e300;
         for (const Point& p : polygon) x0 = std::min(x0, p[0]), x1 = std::max(x1, p[0]);
-        if (scene.drive != Drive::none && scene.offshore > x0 - 4 * scene.settings.spacing && scene.offshore < x1)
-            section.problem("offshore", fmt::format("the moving wall at x = {:g} m stands in the structure (x = {:g} to {:g} m) or less than four particles ahead of it",
-                                                    scene.offshore, x0, x1));
+        if (scene.drive != Drive::none && scene.offshore > x0 - 4 * scene.settings.spacing &&
+            scene.offshore < x1)
+            section.problem("offshore",
+                            fmt::format("the moving wall at x = {:g} m stands in the structure (x = {:g} to "
+                                        "{:g} m) or less than four particles ahead of it",
+                                        scene.offshore, x0, x1));
     }
-    if (scene.drive == Drive::waves && scene.offshore < scene.onshore && scene.offshore + scene.relaxation_length > scene.onshore && scene.boundary != Boundary::paper)
+    if (scene.drive == Drive::waves && scene.offshore < scene.onshore &&
+        scene.offshore + scene.relaxation_length > scene.onshore && scene.boundary != Boundary::paper)
         section.problem("relaxation_length", "the relaxation zone is longer than the near field");
     return scene;
 }

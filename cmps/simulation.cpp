@@ -45,7 +45,8 @@ void add_moving_wall(const Scene& scene, std::vector<BoundaryParticle>& placed) 
     for (int layer = 0; layer < 4; ++layer) {
         const double x = scene.offshore - (layer + 0.5) * l0;
         for (double z = bottom_level(scene, x) + 0.5 * l0; z < top; z += l0)
-            placed.push_back({.x = x, .z = z, .normal = {1, 0}, .body = body_moving_wall, .carries_pressure = layer == 0});
+            placed.push_back(
+                {.x = x, .z = z, .normal = {1, 0}, .body = body_moving_wall, .carries_pressure = layer == 0});
     }
 }
 
@@ -69,8 +70,9 @@ Particles initial_particles(const Scene& scene, const Solid& solid, WaveField* w
         fill_polygons(solid, l0, scene.water, particles);
         return particles;
     }
-    fill_water(solid, l0, scene.offshore, end_of_water(scene, solid), lowest_bottom(scene) - l0,
-               [&](double x) { return waves ? waves->surface_elevation(x) : 0.0; }, particles);
+    fill_water(
+        solid, l0, scene.offshore, end_of_water(scene, solid), lowest_bottom(scene) - l0,
+        [&](double x) { return waves ? waves->surface_elevation(x) : 0.0; }, particles);
     if (waves)
         for (std::size_t i = particles.first_fluid(); i < particles.size(); ++i)
             waves->velocity(particles.x[i], particles.z[i], particles.u[i], particles.w[i]);
@@ -81,7 +83,8 @@ Simulation::Simulation(const Scene& scene, WaveField* waves, double start)
     : scene_(scene), solid_(make_solid(scene)), waves_(waves), time_(start), start_(start) {
     const bool has_wave_start = waves_ && scene_.start;
     if (waves_) waves_->go_to(start);
-    field_ = std::make_unique<NearField>(scene_.settings, initial_particles(scene_, solid_, has_wave_start ? waves_ : nullptr));
+    field_ = std::make_unique<NearField>(
+        scene_.settings, initial_particles(scene_, solid_, has_wave_start ? waves_ : nullptr));
     field_->acceleration_smoothing = scene_.acceleration_smoothing;
     initial_fluid_ = field_->particles.fluid;
     double surface = 0;
@@ -97,7 +100,9 @@ Simulation::Simulation(const Scene& scene, WaveField* waves, double start)
     gauge_series_.resize(gauges_.size());
     initial_energy_ = energy();
     if (scene_.water.empty())
-        initial_volume_ = volume_by_surface(field_->particles, solid_, scene_.settings.spacing, scene_.offshore, end_of_water(scene_, solid_), lowest_bottom(scene_));
+        initial_volume_ =
+            volume_by_surface(field_->particles, solid_, scene_.settings.spacing, scene_.offshore,
+                              end_of_water(scene_, solid_), lowest_bottom(scene_));
 }
 
 void Simulation::compose_effects(double) {
@@ -119,8 +124,8 @@ void Simulation::compose_effects(double) {
             effects.push_back(std::move(overflow));
         }
         if (scene_.has_effect("relaxation_zone"))
-            effects.push_back(std::make_unique<RelaxationZone>(*waves_, *wall_, scene_.relaxation_length,
-                                                               scene_.relaxation_strength, scene_.return_time));
+            effects.push_back(std::make_unique<RelaxationZone>(
+                *waves_, *wall_, scene_.relaxation_length, scene_.relaxation_strength, scene_.return_time));
     }
     if (scene_.drive == Drive::piston) {
         const auto path = std::make_shared<TimeTable>(scene_.piston_file, 2);
@@ -130,7 +135,8 @@ void Simulation::compose_effects(double) {
         wall_ = wall.get();
         effects.push_back(std::move(wall));
     }
-    if (!scene_.gravity_file.empty()) effects.push_back(std::make_unique<GravityHistory>(TimeTable(scene_.gravity_file, 3)));
+    if (!scene_.gravity_file.empty())
+        effects.push_back(std::make_unique<GravityHistory>(TimeTable(scene_.gravity_file, 3)));
     if (scene_.has_effect("viscosity")) effects.push_back(std::make_unique<Viscosity>(scene_.viscosity));
     if (scene_.has_effect("turbulence")) effects.push_back(std::make_unique<Turbulence>(scene_.smagorinsky));
     if (scene_.has_effect("overtopping_basin")) {
@@ -217,7 +223,8 @@ common::Window Simulation::advance_window(const common::WindowClock& clock, std:
     if (!scene_.structure.empty()) {
         const std::size_t n = force_series_.time.size();
         data["/structure/time"] = common::real64("s", {n}, force_series_.time);
-        data["/structure/force"] = common::real32("N/m", {n, scene_.structure.size(), 2}, std::move(force_series_.values));
+        data["/structure/force"] =
+            common::real32("N/m", {n, scene_.structure.size(), 2}, std::move(force_series_.values));
     }
     return window;
 }
@@ -232,7 +239,8 @@ void Simulation::record_due(double time) {
     if (is_due(particle_series_)) record_particles(particle_series_);
     if (is_due(force_series_))
         for (std::size_t k = 0; k < scene_.structure.size(); ++k)
-            for (const double component : force_on(field_->particles, scene_.settings.spacing, static_cast<std::int32_t>(k)))
+            for (const double component :
+                 force_on(field_->particles, scene_.settings.spacing, static_cast<std::int32_t>(k)))
                 force_series_.values.push_back(static_cast<float>(component));
     for (std::size_t g = 0; g < gauges_.size(); ++g)
         if (is_due(gauge_series_[g])) record_gauge(gauges_[g], gauge_series_[g]);
@@ -240,25 +248,32 @@ void Simulation::record_due(double time) {
 
 void Simulation::record_flow(Series& series) {
     flow_->evaluate(field_->particles);
-    const auto append = [](std::vector<float>& to, const std::vector<float>& from) { to.insert(to.end(), from.begin(), from.end()); };
-    append(series.values, flow_->velocity), append(series.more, flow_->acceleration), append(series.third, flow_->wet);
+    const auto append = [](std::vector<float>& to, const std::vector<float>& from) {
+        to.insert(to.end(), from.begin(), from.end());
+    };
+    append(series.values, flow_->velocity), append(series.more, flow_->acceleration),
+        append(series.third, flow_->wet);
 }
 
 /// Fluid by identity (those taken out stand at the end wall's foot, at rest), then walls.
 void Simulation::record_particles(Series& series) {
     const Particles& particles = field_->particles;
     const std::size_t count = initial_fluid_ + particles.walls, from = series.third.size();
-    series.values.resize(2 * (from + count)), series.more.resize(2 * (from + count)), series.third.resize(from + count);
+    series.values.resize(2 * (from + count)), series.more.resize(2 * (from + count)),
+        series.third.resize(from + count);
     const double away_x = scene_.onshore, away_z = bottom_level(scene_, scene_.onshore);
     for (std::size_t k = 0; k < initial_fluid_; ++k) {
         series.values[2 * (from + k)] = static_cast<float>(away_x);
         series.values[2 * (from + k) + 1] = static_cast<float>(away_z);
     }
     for (std::size_t i = particles.first_wall(); i < particles.size(); ++i) {
-        const std::size_t slot = from + (particles.is_fluid(i) ? static_cast<std::size_t>(particles.identity[i])
-                                                               : initial_fluid_ + i - particles.first_wall());
-        series.values[2 * slot] = static_cast<float>(particles.x[i]), series.values[2 * slot + 1] = static_cast<float>(particles.z[i]);
-        series.more[2 * slot] = static_cast<float>(particles.u[i]), series.more[2 * slot + 1] = static_cast<float>(particles.w[i]);
+        const std::size_t slot =
+            from + (particles.is_fluid(i) ? static_cast<std::size_t>(particles.identity[i])
+                                          : initial_fluid_ + i - particles.first_wall());
+        series.values[2 * slot] = static_cast<float>(particles.x[i]),
+                          series.values[2 * slot + 1] = static_cast<float>(particles.z[i]);
+        series.more[2 * slot] = static_cast<float>(particles.u[i]),
+                        series.more[2 * slot + 1] = static_cast<float>(particles.w[i]);
         series.third[slot] = static_cast<float>(particles.pressure[i]);
     }
 }
@@ -271,14 +286,17 @@ void Simulation::record_gauge(const common::Gauge& gauge, Series& series) {
             series.values.push_back(static_cast<float>(surface_elevation(particles, solid_, l0, gauge.x)));
             break;
         case common::Gauge::Kind::pressure:
-            series.values.push_back(static_cast<float>(pressure_at(particles, l0, gauge.x, gauge.z, gauge.diameter)));
+            series.values.push_back(
+                static_cast<float>(pressure_at(particles, l0, gauge.x, gauge.z, gauge.diameter)));
             break;
         case common::Gauge::Kind::velocity:
-            for (const double component : velocity_at(particles, l0, gauge.x, gauge.z)) series.values.push_back(static_cast<float>(component));
+            for (const double component : velocity_at(particles, l0, gauge.x, gauge.z))
+                series.values.push_back(static_cast<float>(component));
             break;
         case common::Gauge::Kind::overtopping: {
             std::size_t beyond = basin_ ? basin_->collected() : 0;
-            for (std::size_t i = particles.first_fluid(); i < particles.size(); ++i) beyond += particles.x[i] > gauge.x;
+            for (std::size_t i = particles.first_fluid(); i < particles.size(); ++i)
+                beyond += particles.x[i] > gauge.x;
             series.values.push_back(static_cast<float>(static_cast<double>(beyond) * l0 * l0));
             break;
         }
@@ -296,7 +314,8 @@ double Simulation::energy() const {
     return settings.pressure.density * settings.spacing * settings.spacing * sum;
 }
 
-/// Energy, leaks, and volume by the surface profile against the particles that are in the water: what compression or voids have cost.
+/// Energy, leaks, and volume by the surface profile against the particles that are in the water: what
+/// compression or voids have cost.
 void Simulation::record_invariants() {
     const Particles& particles = field_->particles;
     in_solid_ = 0;
@@ -304,14 +323,16 @@ void Simulation::record_invariants() {
         in_solid_ += solid_.contains(particles.x[i], particles.z[i]);
     // over the potential energy of the water standing at its depth
     const Settings& settings = scene_.settings;
-    const double scale = 0.5 * settings.pressure.density * 9.81 * settings.depth * settings.spacing * settings.spacing *
-                         static_cast<double>(initial_fluid_);
+    const double scale = 0.5 * settings.pressure.density * 9.81 * settings.depth * settings.spacing *
+                         settings.spacing * static_cast<double>(initial_fluid_);
     energy_gain_ = (energy() - initial_energy_) / scale;
     largest_energy_gain_ = std::max(largest_energy_gain_, energy_gain_);
     if (initial_volume_ <= 0) return;
     const double l0 = scene_.settings.spacing, from = wall_ ? wall_->position() : scene_.offshore;
-    const double volume = volume_by_surface(field_->particles, solid_, l0, from, end_of_water(scene_, solid_), lowest_bottom(scene_));
-    const double expected = initial_volume_ * static_cast<double>(field_->particles.fluid) / static_cast<double>(initial_fluid_);
+    const double volume = volume_by_surface(field_->particles, solid_, l0, from, end_of_water(scene_, solid_),
+                                            lowest_bottom(scene_));
+    const double expected =
+        initial_volume_ * static_cast<double>(field_->particles.fluid) / static_cast<double>(initial_fluid_);
     volume_drift_ = volume / expected - 1.0;
     largest_volume_drift_ = std::max(largest_volume_drift_, std::abs(volume_drift_));
 }
@@ -321,7 +342,10 @@ common::DataFile Simulation::state() const {
     const Particles& particles = field_->particles;
     auto& data = state.datasets;
     const std::size_t n = particles.size();
-    data["/particles/count"] = common::integer32("-", {3}, {static_cast<std::int32_t>(particles.dummies), static_cast<std::int32_t>(particles.walls), static_cast<std::int32_t>(particles.fluid)});
+    data["/particles/count"] = common::integer32(
+        "-", {3},
+        {static_cast<std::int32_t>(particles.dummies), static_cast<std::int32_t>(particles.walls),
+         static_cast<std::int32_t>(particles.fluid)});
     data["/particles/x"] = common::real64("m", {n}, particles.x);
     data["/particles/z"] = common::real64("m", {n}, particles.z);
     data["/particles/u"] = common::real64("m/s", {n}, particles.u);
@@ -334,11 +358,13 @@ common::DataFile Simulation::state() const {
     data["/particles/identity"] = common::integer32("-", {n}, particles.identity);
     data["/particles/body"] = common::integer32("-", {n}, particles.body);
     data["/step"] = common::real64("-", {2}, field_->step_state());
-    data["/run"] = common::real64("-", {6}, {start_, static_cast<double>(initial_fluid_), initial_volume_, largest_volume_drift_,
-                                                           initial_energy_, largest_energy_gain_});
+    data["/run"] = common::real64("-", {6},
+                                  {start_, static_cast<double>(initial_fluid_), initial_volume_,
+                                   largest_volume_drift_, initial_energy_, largest_energy_gain_});
     for (std::size_t e = 0; e < field_->effects.size(); ++e) {
         const auto values = field_->effects[e]->state();
-        if (!values.empty()) data[fmt::format("/effects/{}", e)] = common::real64("-", {values.size()}, values);
+        if (!values.empty())
+            data[fmt::format("/effects/{}", e)] = common::real64("-", {values.size()}, values);
     }
     return state;
 }
@@ -346,18 +372,22 @@ common::DataFile Simulation::state() const {
 void Simulation::restore(const common::DataFile& state) {
     Particles& particles = field_->particles;
     const auto& count = state.at("/particles/count").integers();
-    particles.dummies = static_cast<std::size_t>(count[0]), particles.walls = static_cast<std::size_t>(count[1]);
+    particles.dummies = static_cast<std::size_t>(count[0]),
+    particles.walls = static_cast<std::size_t>(count[1]);
     particles.fluid = static_cast<std::size_t>(count[2]);
     particles.x = state.at("/particles/x").doubles(), particles.z = state.at("/particles/z").doubles();
     particles.u = state.at("/particles/u").doubles(), particles.w = state.at("/particles/w").doubles();
     particles.pressure = state.at("/particles/pressure").doubles();
     particles.acceleration_x = state.at("/particles/acceleration_x").doubles();
     particles.acceleration_z = state.at("/particles/acceleration_z").doubles();
-    particles.normal_x = state.at("/particles/normal_x").doubles(), particles.normal_z = state.at("/particles/normal_z").doubles();
-    particles.identity = state.at("/particles/identity").integers(), particles.body = state.at("/particles/body").integers();
+    particles.normal_x = state.at("/particles/normal_x").doubles(),
+    particles.normal_z = state.at("/particles/normal_z").doubles();
+    particles.identity = state.at("/particles/identity").integers(),
+    particles.body = state.at("/particles/body").integers();
     field_->restore_step_state(state.at("/step").doubles());
     const auto& run = state.at("/run").doubles();
-    initial_fluid_ = static_cast<std::size_t>(run[1]), initial_volume_ = run[2], largest_volume_drift_ = run[3];
+    initial_fluid_ = static_cast<std::size_t>(run[1]), initial_volume_ = run[2],
+    largest_volume_drift_ = run[3];
     initial_energy_ = run[4], largest_energy_gain_ = run[5];
     for (std::size_t e = 0; e < field_->effects.size(); ++e) {
         const std::string name = fmt::format("/effects/{}", e);
@@ -370,10 +400,12 @@ common::DataFile Simulation::geometry() const {
     for (std::size_t k = 0; k < scene_.structure.size(); ++k) {
         std::vector<double> points;
         for (const Point& p : scene_.structure[k]) points.insert(points.end(), p.begin(), p.end());
-        geometry.datasets[fmt::format("/structure/{}", k)] = common::real64("m", {scene_.structure[k].size(), 2}, points);
+        geometry.datasets[fmt::format("/structure/{}", k)] =
+            common::real64("m", {scene_.structure[k].size(), 2}, points);
     }
     std::vector<double> segments;
-    for (const SurfaceSegment& s : solid_.surface()) segments.insert(segments.end(), {s.from[0], s.from[1], s.to[0], s.to[1]});
+    for (const SurfaceSegment& s : solid_.surface())
+        segments.insert(segments.end(), {s.from[0], s.from[1], s.to[0], s.to[1]});
     geometry.datasets["/surface"] = common::real64("m", {solid_.surface().size(), 4}, segments);
     return geometry;
 }
@@ -383,7 +415,8 @@ void Simulation::describe(common::RunRecord& record) const {
     const NearField& field = *field_;
     const std::size_t collected = basin_ ? basin_->collected() : 0;
     const std::size_t waiting = overflow_ ? overflow_->waiting() : 0;
-    const auto missing = static_cast<double>(initial_fluid_) - static_cast<double>(field.particles.fluid + collected + waiting);
+    const auto missing = static_cast<double>(initial_fluid_) -
+                         static_cast<double>(field.particles.fluid + collected + waiting);
     record.set_invariant({"particle_ledger", missing, "particles", 0.5});
     if (initial_volume_ > 0) {
         record.set_invariant({"mass_drift", volume_drift_, "-", 0.02});
@@ -394,8 +427,10 @@ void Simulation::describe(common::RunRecord& record) const {
     record.set_invariant({"energy_gain", energy_gain_, "of rho g h / 2", is_closed ? 0.02 : infinity});
     record.set_invariant({"largest_energy_gain", largest_energy_gain_, "of rho g h / 2", infinity});
     record.set_invariant({"particles_in_solid", static_cast<double>(in_solid_), "particles", 0.5});
-    record.set_invariant({"unconverged_solves", static_cast<double>(field.counts.unconverged), "-", infinity});
-    const double count = static_cast<double>(field.particles.size()), steps = static_cast<double>(field.counts.steps);
+    record.set_invariant(
+        {"unconverged_solves", static_cast<double>(field.counts.unconverged), "-", infinity});
+    const double count = static_cast<double>(field.particles.size()),
+                 steps = static_cast<double>(field.counts.steps);
     record.set_figure("particles.fluid", static_cast<double>(field.particles.fluid));
     record.set_figure("particles.all", count);
     if (overflow_) {
@@ -404,7 +439,8 @@ void Simulation::describe(common::RunRecord& record) const {
     }
     record.set_figure("particles.returned_from_solid", static_cast<double>(containment_->returned()));
     record.set_figure("particles.overtopped", static_cast<double>(collected));
-    record.set_figure("overtopped_volume", static_cast<double>(collected) * scene_.settings.spacing * scene_.settings.spacing);
+    record.set_figure("overtopped_volume",
+                      static_cast<double>(collected) * scene_.settings.spacing * scene_.settings.spacing);
     record.set_figure("start_time", start_);
     record.set_figure("steps", steps);
     if (steps > 0) {

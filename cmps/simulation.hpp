@@ -61,10 +61,10 @@ class Simulation {
     WaveField* waves_;
     std::unique_ptr<NearField> field_;
     std::optional<FlowGrid> flow_;
-    Containment* containment_ = nullptr;    // owned by field_->effects
-    MovingWall* wall_ = nullptr;            // owned by field_->effects
-    OvertoppingBasin* basin_ = nullptr;     // owned by field_->effects
-    WallOverflow* overflow_ = nullptr;      // owned by field_->effects
+    Containment* containment_ = nullptr;  // owned by field_->effects
+    MovingWall* wall_ = nullptr;          // owned by field_->effects
+    OvertoppingBasin* basin_ = nullptr;   // owned by field_->effects
+    WallOverflow* overflow_ = nullptr;    // owned by field_->effects
     double time_ = 0, start_ = 0;
     std::size_t initial_fluid_ = 0;
     double initial_volume_ = 0, largest_volume_drift_ = 0, volume_drift_ = 0;

@@ -8,15 +8,20 @@
 namespace cmps {
 namespace {
 
-double cross(const Point& a, const Point& b) { return a[0] * b[1] - a[1] * b[0]; }
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1]}; }
+double cross(const Point& a, const Point& b) {
+    return a[0] * b[1] - a[1] * b[0];
+}
+Point minus(const Point& a, const Point& b) {
+    return {a[0] - b[0], a[1] - b[1]};
+}
 Point along(const Point& a, const Point& b, double s) {
     return {a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])};
 }
 
 double signed_area(const Polygon& polygon) {
     double twice = 0;
-    for (std::size_t i = 0; i < polygon.size(); ++i) twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+        twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
     return 0.5 * twice;
 }
 
@@ -57,7 +62,8 @@ void add_cuts(const Point& a, const Point& b, const Point& c, const Point& d, st
 
 void Solid::add(Polygon polygon, std::int32_t body) {
     if (signed_area(polygon) < 0) std::reverse(polygon.begin(), polygon.end());
-    Part part{.points = std::move(polygon), .body = body, .x0 = 1e300, .x1 = -1e300, .z0 = 1e300, .z1 = -1e300};
+    Part part{
+        .points = std::move(polygon), .body = body, .x0 = 1e300, .x1 = -1e300, .z0 = 1e300, .z1 = -1e300};
     for (const Point& p : part.points) {
         part.x0 = std::min(part.x0, p[0]), part.x1 = std::max(part.x1, p[0]);
         part.z0 = std::min(part.z0, p[1]), part.z1 = std::max(part.z1, p[1]);
@@ -67,7 +73,8 @@ void Solid::add(Polygon polygon, std::int32_t body) {
 
 bool Solid::contains(double x, double z) const {
     for (const Part& part : parts_)
-        if (x >= part.x0 && x <= part.x1 && z >= part.z0 && z <= part.z1 && inside(part.points, x, z)) return true;
+        if (x >= part.x0 && x <= part.x1 && z >= part.z0 && z <= part.z1 && inside(part.points, x, z))
+            return true;
     return false;
 }
 
@@ -179,7 +186,8 @@ class Occupied {
 
 }  // namespace
 
-std::vector<BoundaryParticle> place_boundary(const Solid& solid, double spacing, double x0, double x1, double z1) {
+std::vector<BoundaryParticle> place_boundary(const Solid& solid, double spacing, double x0, double x1,
+                                             double z1) {
     constexpr int layers = 4;
     const double nearest_allowed = 0.7 * spacing;  // below it two particles would stand for one
     std::vector<BoundaryParticle> placed;
@@ -195,9 +203,9 @@ std::vector<BoundaryParticle> place_boundary(const Solid& solid, double spacing,
                 for (int i = is_mitre ? -layers : 0; i < count + (is_mitre ? layers : 0); ++i) {
                     if (is_mitre && i >= 0 && i < count) continue;
                     // past the ends the lattice goes on with the true spacing
-                    const double s = i < 0        ? (i + 0.5) * spacing
-                                     : i < count  ? (i + 0.5) * step
-                                                  : length + (i - count + 0.5) * spacing;
+                    const double s = i < 0       ? (i + 0.5) * spacing
+                                     : i < count ? (i + 0.5) * step
+                                                 : length + (i - count + 0.5) * spacing;
                     const double x = segment.from[0] + s * t[0] - depth * segment.normal[0];
                     const double z = segment.from[1] + s * t[1] - depth * segment.normal[1];
                     if (x < x0 || x > x1 || z > z1 || !solid.contains(x, z)) continue;
@@ -207,7 +215,10 @@ std::vector<BoundaryParticle> place_boundary(const Solid& solid, double spacing,
                     if (!occupied.is_free(x, z, nearest_allowed)) continue;
                     occupied.add(x, z);
                     const SurfaceSegment& face = solid.surface()[nearest];
-                    placed.push_back({.x = x, .z = z, .normal = face.normal, .body = face.body,
+                    placed.push_back({.x = x,
+                                      .z = z,
+                                      .normal = face.normal,
+                                      .body = face.body,
                                       .carries_pressure = distance < 0.85 * spacing});
                 }
             }

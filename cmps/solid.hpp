@@ -1,4 +1,5 @@
-/// What is not water: bed, structure, end walls, as polygons; their union's surface; wall particles in layers behind it.
+/// What is not water: bed, structure, end walls, as polygons; their union's surface; wall particles in layers
+/// behind it.
 #pragma once
 
 #include <array>
@@ -47,14 +48,15 @@ class Solid {
 /// True where the closed polygon crosses itself; `where` gets the two edges (from 1).
 bool crosses_itself(const Polygon& polygon, std::array<std::size_t, 2>& where);
 
-/// Places four layers of boundary particles, `spacing` apart, the first half a spacing behind the surface, for x in
-/// [x0, x1]. Corners are mitred. The first layer becomes walls, the rest dummies.
+/// Places four layers of boundary particles, `spacing` apart, the first half a spacing behind the surface,
+/// for x in [x0, x1]. Corners are mitred. The first layer becomes walls, the rest dummies.
 struct BoundaryParticle {
     double x, z;
     Point normal;
     std::int32_t body;
     bool carries_pressure;
 };
-std::vector<BoundaryParticle> place_boundary(const Solid& solid, double spacing, double x0, double x1, double z1);
+std::vector<BoundaryParticle> place_boundary(const Solid& solid, double spacing, double x0, double x1,
+                                             double z1);
 
 }  // namespace cmps

@@ -7,8 +7,8 @@
 namespace cmps {
 
 struct SparseMatrix {
-    std::vector<std::uint32_t> start;    ///< rows + 1
-    std::vector<std::uint32_t> upper;    ///< per row: first entry right of the diagonal
+    std::vector<std::uint32_t> start;  ///< rows + 1
+    std::vector<std::uint32_t> upper;  ///< per row: first entry right of the diagonal
     std::vector<std::int32_t> column;
     std::vector<double> value;
     std::vector<double> diagonal;

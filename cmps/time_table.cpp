@@ -26,14 +26,16 @@ TimeTable::TimeTable(const std::filesystem::path& file, std::size_t columns) : c
         for (std::size_t c = 0; c < columns; ++c) {
             double value = 0;
             if (!(words >> value) || !std::isfinite(value))
-                throw common::InputError(fmt::format("{}:{}: expected {} numbers", file.string(), number, columns));
+                throw common::InputError(
+                    fmt::format("{}:{}: expected {} numbers", file.string(), number, columns));
             columns_[c].push_back(value);
         }
         const auto& t = columns_[0];
         if (t.size() > 1 && t.back() <= t[t.size() - 2])
             throw common::InputError(fmt::format("{}:{}: time does not increase", file.string(), number));
     }
-    if (columns_[0].size() < 2) throw common::InputError(fmt::format("{}: expected at least two lines of numbers", file.string()));
+    if (columns_[0].size() < 2)
+        throw common::InputError(fmt::format("{}: expected at least two lines of numbers", file.string()));
 
     const auto& t = columns_[0];
     const std::size_t n = t.size();
@@ -55,7 +57,8 @@ double TimeTable::value(std::size_t column, double time) const {
     const auto &t = columns_[0], &f = columns_[column], &slope = slopes_[column];
     if (time <= t.front()) return f.front();
     if (time >= t.back()) return f.back();
-    const std::size_t k = static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), time) - t.begin()) - 1;
+    const std::size_t k =
+        static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), time) - t.begin()) - 1;
     const double h = t[k + 1] - t[k], s = (time - t[k]) / h;
     return (1 + 2 * s) * (1 - s) * (1 - s) * f[k] + s * (1 - s) * (1 - s) * h * slope[k] +
            s * s * (3 - 2 * s) * f[k + 1] + s * s * (s - 1) * h * slope[k + 1];

@@ -1,4 +1,5 @@
-/// Columns over time from a text file (commas or blanks between numbers; lines that do not start with a number are heads).
+/// Columns over time from a text file (commas or blanks between numbers; lines that do not start with a
+/// number are heads).
 #pragma once
 
 #include <filesystem>
@@ -9,7 +10,8 @@ namespace cmps {
 /// Values between rows by Steffen's monotone cubic (no overshoot); held constant outside the table.
 class TimeTable {
  public:
-    /// Expects `columns` numbers a line, the first one the time (s), increasing. Throws InputError with the line at fault.
+    /// Expects `columns` numbers a line, the first one the time (s), increasing. Throws InputError with the
+    /// line at fault.
     TimeTable(const std::filesystem::path& file, std::size_t columns);
     /// Column 1, 2, ... at `time`.
     double value(std::size_t column, double time) const;

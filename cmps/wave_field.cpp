@@ -10,7 +10,8 @@
 namespace cmps {
 namespace {
 
-/// First and second derivative at the nodes of a smooth field on an even or uneven grid (three-point formulas).
+/// First and second derivative at the nodes of a smooth field on an even or uneven grid (three-point
+/// formulas).
 void differentiate(const std::vector<double>& x, const std::vector<double>& f, std::vector<double>& first,
                    std::vector<double>& second) {
     const std::size_t n = x.size();
@@ -33,15 +34,18 @@ WaveField::WaveField(common::WindowReader& reader, double x0, double x1) : reade
     const common::Window& window = reader_.first();
     const auto x = window.at("/x").as_double(), depth = window.at("/still_water_depth").as_double();
     if (x.size() < 4 || x.front() > x0 || x.back() < x1)
-        throw common::InputError(
-            fmt::format("the wave windows cover x = {:g} to {:g} m; the moving wall and its zone need {:g} to {:g} m "
-                        "(cmps.offshore, cmps.relaxation_length)",
-                        x.front(), x.back(), x0, x1));
-    const auto above = [&](double at) { return static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), at) - x.begin()); };
+        throw common::InputError(fmt::format(
+            "the wave windows cover x = {:g} to {:g} m; the moving wall and its zone need {:g} to {:g} m "
+            "(cmps.offshore, cmps.relaxation_length)",
+            x.front(), x.back(), x0, x1));
+    const auto above = [&](double at) {
+        return static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), at) - x.begin());
+    };
     const std::size_t from = above(x0) > 3 ? above(x0) - 3 : 0, to = std::min(above(x1) + 3, x.size());
     first_node_ = from;
     x_.assign(x.begin() + static_cast<std::ptrdiff_t>(from), x.begin() + static_cast<std::ptrdiff_t>(to));
-    depth_.assign(depth.begin() + static_cast<std::ptrdiff_t>(from), depth.begin() + static_cast<std::ptrdiff_t>(to));
+    depth_.assign(depth.begin() + static_cast<std::ptrdiff_t>(from),
+                  depth.begin() + static_cast<std::ptrdiff_t>(to));
     std::vector<double> bed(depth_.size());
     for (std::size_t i = 0; i < bed.size(); ++i) bed[i] = -depth_[i];
     differentiate(x_, bed, bed_x_, bed_xx_);
@@ -79,7 +83,8 @@ void WaveField::cover(double t0, double t1) {
     }
     while (samples_.empty() || last_time_ < t1 - slack)
         if (!receive_next())
-            throw common::InputError(fmt::format("the wave windows end at t = {:g} s, but t = {:g} s is needed", last_time_, t1));
+            throw common::InputError(
+                fmt::format("the wave windows end at t = {:g} s, but t = {:g} s is needed", last_time_, t1));
     while (samples_.size() > 1 && samples_.front().time.back() < t0 - slack) samples_.pop_front();
 }
 

@@ -1,4 +1,5 @@
-/// The waves that the Boussinesq stage computed, near the offshore boundary: surface and velocity with depth profile.
+/// The waves that the Boussinesq stage computed, near the offshore boundary: surface and velocity with depth
+/// profile.
 ///
 ///     u(z) = u - ((z-b)^2/2 - h^2/6) u_xx + ((z-b) - h/2) (2 b_x u_x + b_xx u)
 ///     w(z) = -(z-b) u_x + b_x u
@@ -18,11 +19,11 @@ class WaveField {
     /// Keeps nodes within [x0, x1] and the nodes around. Throws InputError when the windows do not cover it.
     WaveField(common::WindowReader& reader, double x0, double x1);
 
-    /// Receives windows until `t1` is covered, and forgets those that end before `t0`. Throws InputError when the
-    /// upstream stage ended earlier.
+    /// Receives windows until `t1` is covered, and forgets those that end before `t0`. Throws InputError when
+    /// the upstream stage ended earlier.
     void cover(double t0, double t1);
-    /// First time from `from` on at which |surface elevation| or |velocity| at x reaches the thresholds; receives windows as it
-    /// goes. Negative when the waves end before.
+    /// First time from `from` on at which |surface elevation| or |velocity| at x reaches the thresholds;
+    /// receives windows as it goes. Negative when the waves end before.
     double arrival(double x, double elevation_threshold, double from);
 
     double first_time() const { return first_time_; }

@@ -8,7 +8,8 @@ void Containment::end_step(NearField& field, double, double) {
     Particles& particles = field.particles;
     const NeighbourLists& lists = field.search.lists();
     const std::size_t first = particles.first_fluid(), walls = particles.walls;
-    const double l0 = field.settings.spacing, near2 = 0.81 * l0 * l0;  // faces stand l0/2 ahead of their particles
+    const double l0 = field.settings.spacing,
+                 near2 = 0.81 * l0 * l0;  // faces stand l0/2 ahead of their particles
     for (std::size_t f = 0; f < particles.fluid; ++f) {
         const std::size_t i = first + f, row = walls + f;
         bool is_near = false;

@@ -9,7 +9,9 @@ void MovingWall::begin_step(NearField& field, double time, double step) {
         if (particles.body[i] == body_moving_wall) particles.u[i] = speed_;
 }
 
-void MovingWall::end_step(NearField&, double, double step) { displacement_ += step * speed_; }
+void MovingWall::end_step(NearField&, double, double step) {
+    displacement_ += step * speed_;
+}
 
 double returning_wall_velocity(double wave_velocity, double displacement, double return_time) {
     return wave_velocity - displacement / return_time;

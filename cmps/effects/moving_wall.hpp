@@ -10,14 +10,17 @@ namespace cmps {
 /// Moves every boundary particle of `body_moving_wall` with one velocity.
 class MovingWall final : public Effect {
  public:
-    /// `velocity(time, step, x)`: mean velocity from `time` to `time + step` of the wall that stands at x, m/s.
-    /// The wall starts at `x`.
-    MovingWall(double x, std::function<double(double, double, double)> velocity) : start_(x), velocity_(std::move(velocity)) {}
+    /// `velocity(time, step, x)`: mean velocity from `time` to `time + step` of the wall that stands at x,
+    /// m/s. The wall starts at `x`.
+    MovingWall(double x, std::function<double(double, double, double)> velocity)
+        : start_(x), velocity_(std::move(velocity)) {}
     std::string name() const override { return "moving wall"; }
     void begin_step(NearField& field, double time, double step) override;
     void end_step(NearField& field, double time, double step) override;
     std::vector<double> state() const override { return {displacement_, speed_}; }
-    void restore(const std::vector<double>& state) override { displacement_ = state.at(0), speed_ = state.at(1); }
+    void restore(const std::vector<double>& state) override {
+        displacement_ = state.at(0), speed_ = state.at(1);
+    }
 
     /// Present place of its face, m.
     double position() const { return start_ + displacement_; }

@@ -12,7 +12,9 @@ class OvertoppingBasin final : public Effect {
     std::string name() const override { return "overtopping_basin"; }
     void end_step(NearField& field, double time, double step) override;
     std::vector<double> state() const override { return {static_cast<double>(collected_)}; }
-    void restore(const std::vector<double>& state) override { collected_ = static_cast<std::size_t>(state.at(0)); }
+    void restore(const std::vector<double>& state) override {
+        collected_ = static_cast<std::size_t>(state.at(0));
+    }
     std::size_t collected() const { return collected_; }
 
  private:

@@ -1,5 +1,5 @@
-/// Open boundary: velocities are drawn towards those of the waves in a zone behind the moving wall, so that waves
-/// coming back leave.
+/// Open boundary: velocities are drawn towards those of the waves in a zone behind the moving wall, so that
+/// waves coming back leave.
 ///
 ///     u += (1 - exp(-chi dt)) (u_B(x, z, t) - u),   chi = strength (1 - distance / length)^2
 #pragma once
@@ -13,7 +13,8 @@ namespace cmps {
 class RelaxationZone final : public Effect {
  public:
     /// length in m, strength in 1/s; `offset(…)` of the wall's return is taken off the target velocity.
-    RelaxationZone(WaveField& waves, const MovingWall& wall, double length, double strength, double return_time)
+    RelaxationZone(WaveField& waves, const MovingWall& wall, double length, double strength,
+                   double return_time)
         : waves_(waves), wall_(wall), length_(length), strength_(strength), return_time_(return_time) {}
     std::string name() const override { return "relaxation zone"; }
     void end_step(NearField& field, double time, double step) override;

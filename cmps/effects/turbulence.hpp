@@ -1,5 +1,5 @@
-/// Sub-particle turbulence (Smagorinsky): nu_t = (C_s l0)^2 |S|, |S| = sqrt(2 S_ij S_ij) from the corrected velocity
-/// gradient (Gotoh, Shibahara & Sakai 2001).
+/// Sub-particle turbulence (Smagorinsky): nu_t = (C_s l0)^2 |S|, |S| = sqrt(2 S_ij S_ij) from the corrected
+/// velocity gradient (Gotoh, Shibahara & Sakai 2001).
 #pragma once
 
 #include "cmps/near_field.hpp"

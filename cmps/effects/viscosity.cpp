@@ -20,7 +20,8 @@ void Viscosity::accelerate(NearField& field, double, double step) {
         }
         du_[f] = factor * su, dw_[f] = factor * sw;
     });
-    for (std::size_t f = 0; f < particles.fluid; ++f) particles.u[first + f] += du_[f], particles.w[first + f] += dw_[f];
+    for (std::size_t f = 0; f < particles.fluid; ++f)
+        particles.u[first + f] += du_[f], particles.w[first + f] += dw_[f];
 }
 
 }  // namespace cmps

@@ -6,24 +6,26 @@
 namespace cmps {
 namespace {
 
-constexpr double zone_length = 0.6;        // m behind the wall, where water is put back
-constexpr std::size_t most_per_step = 2;   // more at once is felt as a shock
+constexpr double zone_length = 0.6;       // m behind the wall, where water is put back
+constexpr std::size_t most_per_step = 2;  // more at once is felt as a shock
 constexpr double nothing = -1e300;
 
 }  // namespace
 
-WallOverflow::WallOverflow(NearField& field, WaveField& waves, const MovingWall& wall, double crest_lowering, double bottom)
+WallOverflow::WallOverflow(NearField& field, WaveField& waves, const MovingWall& wall, double crest_lowering,
+                           double bottom)
     : waves_(waves), wall_(wall), crest_lowering_(crest_lowering), bottom_(bottom) {
     const Particles& particles = field.particles;
     double top = bottom;
     for (std::size_t i = 0; i < particles.first_fluid(); ++i)
         if (particles.body[i] == body_moving_wall) members_.push_back(i), top = std::max(top, particles.z[i]);
-    for (const std::size_t i : members_) below_crest_.push_back(top - particles.z[i] + 0.5 * field.settings.spacing);
+    for (const std::size_t i : members_)
+        below_crest_.push_back(top - particles.z[i] + 0.5 * field.settings.spacing);
     waiting_.reserve(particles.fluid);
 }
 
-/// The wall's rows hang from its crest; those that would stand below the bed wait under it, out of every kernel's
-/// reach. The crest's own motion is no velocity: it pushes no water.
+/// The wall's rows hang from its crest; those that would stand below the bed wait under it, out of every
+/// kernel's reach. The crest's own motion is no velocity: it pushes no water.
 void WallOverflow::begin_step(NearField& field, double time, double step) {
     waves_.go_to(time + step);
     const double x = wall_.position(), l0 = field.settings.spacing;

@@ -1,6 +1,6 @@
-/// The paper's offshore boundary, eqs. (6)-(7): the moving wall ends below the surface, so that reflected crests pass
-/// over it and leave; water that passed is put back where the surface lies lowest against that of the waves, so that
-/// the volume stays (Gotoh, Ikari, Sakai & Okuda 2006).
+/// The paper's offshore boundary, eqs. (6)-(7): the moving wall ends below the surface, so that reflected
+/// crests pass over it and leave; water that passed is put back where the surface lies lowest against that of
+/// the waves, so that the volume stays (Gotoh, Ikari, Sakai & Okuda 2006).
 #pragma once
 
 #include <vector>
@@ -14,7 +14,8 @@ namespace cmps {
 class WallOverflow final : public Effect {
  public:
     /// `crest_lowering`: h_of, m. `bottom`: level of the bed at the wall, m.
-    WallOverflow(NearField& field, WaveField& waves, const MovingWall& wall, double crest_lowering, double bottom);
+    WallOverflow(NearField& field, WaveField& waves, const MovingWall& wall, double crest_lowering,
+                 double bottom);
     std::string name() const override { return "wall_overflow"; }
     void begin_step(NearField& field, double time, double step) override;
     void end_step(NearField& field, double time, double step) override;
@@ -30,9 +31,9 @@ class WallOverflow final : public Effect {
     WaveField& waves_;
     const MovingWall& wall_;
     double crest_lowering_, bottom_;
-    std::vector<std::size_t> members_;    // boundary particles of the wall
-    std::vector<double> below_crest_;     // their depth below the crest, m
-    std::vector<std::int32_t> waiting_;   // identities
+    std::vector<std::size_t> members_;   // boundary particles of the wall
+    std::vector<double> below_crest_;    // their depth below the crest, m
+    std::vector<std::int32_t> waiting_;  // identities
     std::vector<double> column_top_, column_u_, column_w_;
     std::size_t passed_ = 0;
 };

@@ -10,14 +10,17 @@
 namespace cmps_tank {
 
 /// An open tank, floor at z = 0, side walls at x = 0 and x = length, filled to `surface(x)`.
-inline cmps::Particles particles(double length, double spacing, const std::function<double(double)>& surface, double height) {
+inline cmps::Particles particles(double length, double spacing, const std::function<double(double)>& surface,
+                                 double height) {
     const double thick = 6 * spacing;
     cmps::Solid solid;
     solid.add({{-thick, -thick}, {length + thick, -thick}, {length + thick, 0}, {-thick, 0}}, cmps::body_bed);
     solid.add({{-thick, -thick}, {0, -thick}, {0, height}, {-thick, height}}, cmps::body_end_wall);
-    solid.add({{length, -thick}, {length + thick, -thick}, {length + thick, height}, {length, height}}, cmps::body_end_wall);
+    solid.add({{length, -thick}, {length + thick, -thick}, {length + thick, height}, {length, height}},
+              cmps::body_end_wall);
     solid.find_surface({0, 0}, {length, height});
-    cmps::Particles particles = cmps::make_boundary(cmps::place_boundary(solid, spacing, -1, length + 1, height));
+    cmps::Particles particles =
+        cmps::make_boundary(cmps::place_boundary(solid, spacing, -1, length + 1, height));
     cmps::fill_water(solid, spacing, 0, length, 0, surface, particles);
     return particles;
 }
@@ -30,7 +33,8 @@ inline cmps::Settings settings(double spacing, double depth) {
 }
 
 /// Advances to `end`, calling after(time) after every step.
-inline void run(cmps::NearField& field, double end, const std::function<void(double)>& after = [](double) {}) {
+inline void run(
+    cmps::NearField& field, double end, const std::function<void(double)>& after = [](double) {}) {
     for (double time = 0; time < end;) {
         const double step = field.largest_step();
         field.advance(time, step);

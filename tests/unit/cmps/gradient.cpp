@@ -1,5 +1,6 @@
-/// The paper's point and its trap, side by side: eq. (5) conserves momentum and eq. (1) does not; the corrected
-/// gradient is exact for a linear pressure and eq. (5) with local minima gives none of it on a lattice.
+/// The paper's point and its trap, side by side: eq. (5) conserves momentum and eq. (1) does not; the
+/// corrected gradient is exact for a linear pressure and eq. (5) with local minima gives none of it on a
+/// lattice.
 #include "cmps/gradient.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +26,8 @@ struct Blob {
         for (int i = 0; i < side; ++i)
             for (int k = 0; k < side; ++k)
                 particles.add_fluid(i * spacing + shift(random), k * spacing + shift(random), i * side + k);
-        for (std::size_t i = 0; i < particles.size(); ++i) particles.pressure[i] = pressure(particles.x[i], particles.z[i]);
+        for (std::size_t i = 0; i < particles.size(); ++i)
+            particles.pressure[i] = pressure(particles.x[i], particles.z[i]);
         const cmps::WendlandKernel kernel{3.1 * spacing};
         lattice_density = cmps::lattice_constants(kernel, spacing).number_density;
         search.update(particles, {});
@@ -80,30 +82,30 @@ void linear_pressure(cmps::Gradient kind, double jitter, double& mean, double& d
 TEST(Gradient, CorrectedFormIsExactForLinearPressure) {
     double mean, deviation;
     linear_pressure(cmps::Gradient::corrected, 0.1, mean, deviation);
-    EXPECT_NEAR(mean, 1.0, 1e-6);       // pairs are kept as float
+    EXPECT_NEAR(mean, 1.0, 1e-6);  // pairs are kept as float
     EXPECT_LT(deviation, 1e-6);
 }
 
 TEST(Gradient, StandardAndModifiedFormsAreRightOnTheMean) {
     double mean, deviation;
     linear_pressure(cmps::Gradient::standard, 0.1, mean, deviation);
-    EXPECT_NEAR(mean, 1.0, 0.02);       // jitter of 10 % averages out over 900 particles
-    EXPECT_NEAR(deviation, 0.43, 0.06); // measured independently: 0.43
+    EXPECT_NEAR(mean, 1.0, 0.02);        // jitter of 10 % averages out over 900 particles
+    EXPECT_NEAR(deviation, 0.43, 0.06);  // measured independently: 0.43
     linear_pressure(cmps::Gradient::modified, 0.1, mean, deviation);
     EXPECT_NEAR(mean, 1.0, 0.03);
-    EXPECT_NEAR(deviation, 0.86, 0.12); // 0.86
+    EXPECT_NEAR(deviation, 0.86, 0.12);  // 0.86
 }
 
 TEST(Gradient, LocalMinimaMakeEquationFiveBlindToLinearPressure) {
     double mean, deviation;
     linear_pressure(cmps::Gradient::antisymmetric_local, 0.0, mean, deviation);
-    EXPECT_NEAR(mean, 0.0, 1e-6);       // p_i - p^_i is the same everywhere but for the rounding of positions
+    EXPECT_NEAR(mean, 0.0, 1e-6);  // p_i - p^_i is the same everywhere but for the rounding of positions
 }
 
 TEST(Gradient, GlobalMinimumMakesEquationFiveConsistentOnALattice) {
     double mean, deviation;
     linear_pressure(cmps::Gradient::antisymmetric_global, 0.0, mean, deviation);
-    EXPECT_NEAR(mean, 1.0, 1e-5);       // float pairs times pressures ten times their differences
+    EXPECT_NEAR(mean, 1.0, 1e-5);  // float pairs times pressures ten times their differences
     EXPECT_LT(deviation, 1e-5);
 }
 

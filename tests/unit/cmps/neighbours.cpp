@@ -11,7 +11,8 @@
 namespace {
 
 cmps::Particles jittered_tank() {
-    cmps::Particles particles = cmps_tank::particles(0.3, 0.01, [](double) { return 0.2; }, 0.3);
+    cmps::Particles particles = cmps_tank::particles(
+        0.3, 0.01, [](double) { return 0.2; }, 0.3);
     std::mt19937 random(1);
     std::uniform_real_distribution<double> jitter(-0.004, 0.004);
     for (std::size_t i = particles.first_fluid(); i < particles.size(); ++i)
@@ -28,10 +29,13 @@ TEST(Neighbours, ListsAreThoseOfABruteForceSearch) {
     for (std::size_t r = 0; r < particles.size() - first; ++r) {
         std::vector<std::int32_t> expected;
         for (std::size_t j = 0; j < particles.size(); ++j) {
-            const double dx = particles.x[j] - particles.x[first + r], dz = particles.z[j] - particles.z[first + r];
-            if (j != first + r && dx * dx + dz * dz < 0.029 * 0.029) expected.push_back(static_cast<std::int32_t>(j));
+            const double dx = particles.x[j] - particles.x[first + r],
+                         dz = particles.z[j] - particles.z[first + r];
+            if (j != first + r && dx * dx + dz * dz < 0.029 * 0.029)
+                expected.push_back(static_cast<std::int32_t>(j));
         }
-        const std::vector<std::int32_t> found(lists.neighbour.begin() + lists.start[r], lists.neighbour.begin() + lists.start[r + 1]);
+        const std::vector<std::int32_t> found(lists.neighbour.begin() + lists.start[r],
+                                              lists.neighbour.begin() + lists.start[r + 1]);
         ASSERT_EQ(found, expected) << "row " << r;
         for (std::uint32_t k = lists.start[r]; k < lists.start[r + 1]; ++k)
             ASSERT_EQ(k >= lists.carriers[r], static_cast<std::size_t>(lists.neighbour[k]) >= first);
@@ -55,10 +59,14 @@ TEST(Neighbours, ReorderingCarriesEveryArrayAlong) {
         particles.u[i] = particles.x[i], particles.pressure[i] = particles.z[i];
         companion[i] = particles.x[i] + particles.z[i];
     }
-    std::reverse(particles.x.begin() + static_cast<std::ptrdiff_t>(particles.first_fluid()), particles.x.end());
-    std::reverse(particles.u.begin() + static_cast<std::ptrdiff_t>(particles.first_fluid()), particles.u.end());
-    std::reverse(particles.z.begin() + static_cast<std::ptrdiff_t>(particles.first_fluid()), particles.z.end());
-    std::reverse(particles.pressure.begin() + static_cast<std::ptrdiff_t>(particles.first_fluid()), particles.pressure.end());
+    std::reverse(particles.x.begin() + static_cast<std::ptrdiff_t>(particles.first_fluid()),
+                 particles.x.end());
+    std::reverse(particles.u.begin() + static_cast<std::ptrdiff_t>(particles.first_fluid()),
+                 particles.u.end());
+    std::reverse(particles.z.begin() + static_cast<std::ptrdiff_t>(particles.first_fluid()),
+                 particles.z.end());
+    std::reverse(particles.pressure.begin() + static_cast<std::ptrdiff_t>(particles.first_fluid()),
+                 particles.pressure.end());
     std::reverse(companion.begin() + static_cast<std::ptrdiff_t>(particles.first_fluid()), companion.end());
     cmps::NeighbourSearch search(0.026, 0.003);
     search.update(particles, {&companion});

@@ -13,7 +13,8 @@ namespace {
 struct System {
     cmps::NearField field;
     explicit System(double spacing)
-        : field(cmps_tank::settings(spacing, 0.2), cmps_tank::particles(0.3, spacing, [](double) { return 0.2; }, 0.3)) {
+        : field(cmps_tank::settings(spacing, 0.2), cmps_tank::particles(
+                                                       0.3, spacing, [](double) { return 0.2; }, 0.3)) {
         std::mt19937 random(3);
         std::normal_distribution<double> speed(0, 0.1);
         for (std::size_t i = field.particles.first_fluid(); i < field.particles.size(); ++i)
@@ -29,7 +30,8 @@ std::vector<double> exact(const cmps::SparseMatrix& matrix, std::vector<double> 
     std::vector<std::vector<double>> a(n, std::vector<double>(n, 0.0));
     for (std::size_t i = 0; i < n; ++i) {
         a[i][i] = matrix.diagonal[i];
-        for (std::uint32_t k = matrix.start[i]; k < matrix.start[i + 1]; ++k) a[i][matrix.column[k]] = matrix.value[k];
+        for (std::uint32_t k = matrix.start[i]; k < matrix.start[i + 1]; ++k)
+            a[i][matrix.column[k]] = matrix.value[k];
     }
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < i; ++j) EXPECT_NEAR(a[i][j], a[j][i], 1e-12);  // round-off
@@ -60,7 +62,8 @@ TEST(PressureSolver, AgreesWithADirectSolve) {
     const auto report = cmps::PressureSolver(1e-12, 1000).solve(equation.matrix, equation.right_hand_side, x);
     EXPECT_TRUE(report.is_converged);
     double error = 0, size = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) error += std::pow(x[i] - expected[i], 2), size += expected[i] * expected[i];
+    for (std::size_t i = 0; i < x.size(); ++i)
+        error += std::pow(x[i] - expected[i], 2), size += expected[i] * expected[i];
     EXPECT_LT(std::sqrt(error / size), 1e-9);  // tolerance times the condition number
 }
 
@@ -79,7 +82,8 @@ TEST(PressureSolver, MultigridFindsTheSameSolutionInFewIterations) {
     EXPECT_TRUE(multigrid.is_converged);
     EXPECT_LT(multigrid.iterations, cholesky.iterations);
     double error = 0, size = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) error += std::pow(x[i] - expected[i], 2), size += expected[i] * expected[i];
+    for (std::size_t i = 0; i < x.size(); ++i)
+        error += std::pow(x[i] - expected[i], 2), size += expected[i] * expected[i];
     EXPECT_LT(std::sqrt(error / size), 1e-6);  // tolerance times the condition number of about 2000
 }
 
@@ -96,7 +100,8 @@ TEST(PressureSolver, SaysSoWhenItDoesNotConverge) {
     System system(0.02);
     const auto& equation = system.field.equation;
     std::vector<double> x(equation.matrix.rows(), 0.0);
-    EXPECT_FALSE(cmps::PressureSolver(1e-12, 2).solve(equation.matrix, equation.right_hand_side, x).is_converged);
+    EXPECT_FALSE(
+        cmps::PressureSolver(1e-12, 2).solve(equation.matrix, equation.right_hand_side, x).is_converged);
 }
 
 }  // namespace

@@ -56,7 +56,8 @@ TEST(Solid, CrossingPolygonsAreFound) {
     EXPECT_FALSE(cmps::crosses_itself({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, where));
 }
 
-/// At every point just inside the water of a wedge of any angle, the boundary fills the kernel as a lattice would.
+/// At every point just inside the water of a wedge of any angle, the boundary fills the kernel as a lattice
+/// would.
 class Corner : public testing::TestWithParam<double> {};
 
 TEST_P(Corner, HasNoHoleThatLetsWaterThrough) {
@@ -66,10 +67,11 @@ TEST_P(Corner, HasNoHoleThatLetsWaterThrough) {
     solid.add({{0, 0}, {std::cos(angle), std::sin(angle)}, {-1.9, std::sin(angle)}, {-1.9, 0}}, 0);
     solid.find_surface({-1.5, -0.5}, {1.5, 0.5});
     const auto placed = cmps::place_boundary(solid, l0, -0.5, 0.5, 0.4);
-    // along both faces, every point of the surface has a wall particle within 0.87 l0: half a spacing behind it and
-    // at most 0.7 l0 to the side, so that no particle of diameter l0 fits between two of them
+    // along both faces, every point of the surface has a wall particle within 0.87 l0: half a spacing behind
+    // it and at most 0.7 l0 to the side, so that no particle of diameter l0 fits between two of them
     for (const double s : {0.002, 0.005, 0.01, 0.02, 0.03, 0.05, 0.1, 0.15})
-        for (const auto& [x, z] : {std::array{s, 0.0}, std::array{s * std::cos(angle), s * std::sin(angle)}}) {
+        for (const auto& [x, z] :
+             {std::array{s, 0.0}, std::array{s * std::cos(angle), s * std::sin(angle)}}) {
             double nearest = 1;
             for (const auto& p : placed)
                 if (p.carries_pressure) nearest = std::min(nearest, std::hypot(p.x - x, p.z - z));
@@ -77,7 +79,8 @@ TEST_P(Corner, HasNoHoleThatLetsWaterThrough) {
         }
     for (std::size_t a = 0; a < placed.size(); ++a)
         for (std::size_t b = a + 1; b < placed.size(); ++b)
-            EXPECT_GE(std::hypot(placed[a].x - placed[b].x, placed[a].z - placed[b].z), 0.7 * l0 * (1 - 1e-9));
+            EXPECT_GE(std::hypot(placed[a].x - placed[b].x, placed[a].z - placed[b].z),
+                      0.7 * l0 * (1 - 1e-9));
 }
 
 INSTANTIATE_TEST_SUITE_P(Angles, Corner, testing::Values(20.0, 35.0, 63.4, 90.0, 120.0, 153.4));
@@ -88,9 +91,11 @@ TEST(InitialState, AreaOfTheWaterIsKeptToOneParticle) {
     solid.add({{-1, -1}, {2, -1}, {2, 0}, {1, 0}, {0.4, -0.3}, {-1, -0.3}}, cmps::body_bed);
     solid.find_surface({-0.5, -0.9}, {1.5, 1.0});
     cmps::Particles particles;
-    cmps::fill_water(solid, l0, 0.0, 1.0, -0.5, [](double) { return 0.1; }, particles);
+    cmps::fill_water(
+        solid, l0, 0.0, 1.0, -0.5, [](double) { return 0.1; }, particles);
     const double area = 0.4 * 0.4 + 0.6 * (0.4 + 0.1) / 2;
-    EXPECT_NEAR(static_cast<double>(particles.fluid) * l0 * l0, area, 1.5 * l0 * l0 + 0.5 * l0 * l0);  // one particle, and the slope seen at column centres
+    EXPECT_NEAR(static_cast<double>(particles.fluid) * l0 * l0, area,
+                1.5 * l0 * l0 + 0.5 * l0 * l0);  // one particle, and the slope seen at column centres
 }
 
 }  // namespace

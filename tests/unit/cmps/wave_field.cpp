@@ -12,8 +12,12 @@ namespace {
 
 constexpr double depth = 0.4, amplitude = 0.01, wave_number = 1.5, frequency = 2.8;
 
-double elevation(double x, double t) { return amplitude * std::cos(wave_number * x - frequency * t); }
-double mean_velocity(double x, double t) { return frequency / wave_number / depth * elevation(x, t); }
+double elevation(double x, double t) {
+    return amplitude * std::cos(wave_number * x - frequency * t);
+}
+double mean_velocity(double x, double t) {
+    return frequency / wave_number / depth * elevation(x, t);
+}
 
 /// Windows of half a second of a small progressive wave.
 std::filesystem::path write_windows(const std::string& name, int count) {
@@ -21,8 +25,13 @@ std::filesystem::path write_windows(const std::string& name, int count) {
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
     for (int index = 0; index < count; ++index) {
-        common::Window window{.stage = "boussinesq", .index = index, .t_begin = 0.5 * index, .t_end = 0.5 * (index + 1),
-                              .scene_digest = "d", .input_digest = "", .datasets = {}};
+        common::Window window{.stage = "boussinesq",
+                              .index = index,
+                              .t_begin = 0.5 * index,
+                              .t_end = 0.5 * (index + 1),
+                              .scene_digest = "d",
+                              .input_digest = "",
+                              .datasets = {}};
         std::vector<double> t, x, h, eta, u;
         for (int k = 0; k <= 20; ++k) t.push_back(window.t_begin + 0.025 * k);
         for (int i = 0; i <= 100; ++i) x.push_back(0.05 * i), h.push_back(depth);
@@ -40,8 +49,12 @@ std::filesystem::path write_windows(const std::string& name, int count) {
 
 common::WindowReader reader_of(const std::filesystem::path& folder) {
     return common::WindowReader(folder, "boussinesq",
-                                {{"/time", "s", {"nt"}}, {"/x", "m", {"nx"}}, {"/still_water_depth", "m", {"nx"}},
-                                 {"/surface_elevation", "m", {"nt", "nx"}}, {"/velocity", "m/s", {"nt", "nx"}}}, false);
+                                {{"/time", "s", {"nt"}},
+                                 {"/x", "m", {"nx"}},
+                                 {"/still_water_depth", "m", {"nx"}},
+                                 {"/surface_elevation", "m", {"nt", "nx"}},
+                                 {"/velocity", "m/s", {"nt", "nx"}}},
+                                false);
 }
 
 TEST(WaveField, InterpolatesInTimeAndSpaceAcrossWindows) {
@@ -53,7 +66,8 @@ TEST(WaveField, InterpolatesInTimeAndSpaceAcrossWindows) {
         for (const double x : {2.0, 2.33, 2.91}) {
             // cubic in time (error (w dt)^3 at window ends), linear in x ((k dx)^2/8 = 7e-4)
             EXPECT_NEAR(waves.surface_elevation(x), elevation(x, t), 1e-3 * amplitude + 1e-12);
-            EXPECT_NEAR(waves.mean_velocity(x), mean_velocity(x, t), 1e-3 * amplitude * frequency / wave_number / depth);
+            EXPECT_NEAR(waves.mean_velocity(x), mean_velocity(x, t),
+                        1e-3 * amplitude * frequency / wave_number / depth);
         }
     }
 }
@@ -77,8 +91,10 @@ TEST(WaveField, ProfileHasTheMeanAndTheShapeOfLinearTheory) {
         double u, w;
         waves.velocity(x, z, u, w);
         const double kh = wave_number * depth;
-        EXPECT_NEAR(u / waves.mean_velocity(x), std::cosh(wave_number * (z + depth)) * kh / std::sinh(kh), 0.02);  // (kh)^4/24 and elevation/depth
-        const double slope = -wave_number * frequency / wave_number / depth * amplitude * std::sin(wave_number * x - frequency * 0.3);
+        EXPECT_NEAR(u / waves.mean_velocity(x), std::cosh(wave_number * (z + depth)) * kh / std::sinh(kh),
+                    0.02);  // (kh)^4/24 and elevation/depth
+        const double slope = -wave_number * frequency / wave_number / depth * amplitude *
+                             std::sin(wave_number * x - frequency * 0.3);
         EXPECT_NEAR(w, -(z + depth) * slope, 0.02 * std::abs(slope) * depth);  // differences over dx
     }
 }
@@ -86,7 +102,8 @@ TEST(WaveField, ProfileHasTheMeanAndTheShapeOfLinearTheory) {
 TEST(WaveField, FindsTheArrival) {
     auto reader = reader_of(write_windows("arrival", 4));
     cmps::WaveField waves(reader, 2.0, 3.0);
-    EXPECT_NEAR(waves.arrival(2.5, 0.5 * amplitude, 0.7), 0.7, 0.5);  // the wave reaches it twice a period of 2.2 s
+    EXPECT_NEAR(waves.arrival(2.5, 0.5 * amplitude, 0.7), 0.7,
+                0.5);  // the wave reaches it twice a period of 2.2 s
     EXPECT_LT(waves.arrival(2.5, 2 * amplitude, 0.0), 0);
 }
 

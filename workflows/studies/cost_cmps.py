@@ -1,0 +1,226 @@
+#!/usr/bin/python3
+"""What accuracy costs in cmps: error against wall time, as CSV and picture.
+
+    cost_cmps.py --bin BIN --out DIR [--smoke] [--repeats N]
+
+Cases with a true answer:
+    still    still water: floor pressure against rho g h, noise
+    dam      Lobovsky et al. (2014): level in the reservoir and impact pressure
+    solitary solitary wave against a wall: run-up against Su & Mirie (1980)
+The ladder (particles over the depth) for each, and one factor at a time around the standard set: gradient, source, Laplacian,
+surface condition, kernel radius, time stepping, shifting, solver tolerance, Courant number.
+"""
+import argparse
+import csv
+import json
+import os
+import subprocess
+
+import h5py
+import numpy as np
+
+HEAD = "stage,case,factor,setting,error,error_is,wall_s,wall_min_s,wall_max_s,cpu_s,peak_memory_MB,steps,particles,status".split(",")
+
+STILL = """
+title = "still water"
+[time]
+end = {end}
+window = 1.0
+[gauges]
+floor = {{x = 0.2, z = 0.0, kind = "pressure", interval = 0.01}}
+[cmps]
+drive = "none"
+tank = [0, 0.4, 0, 0.5]
+water = [[[0, 0], [0.4, 0], [0.4, 0.3], [0, 0.3]]]
+particle_spacing = {spacing}
+"""
+
+DAM = """
+title = "dam break"
+[time]
+end = {end}
+window = 0.5
+[gauges]
+H1 = {{x = 0.3, interval = 0.005}}
+H2 = {{x = 0.865, interval = 0.005}}
+[cmps]
+drive = "none"
+tank = [0, 1.61, 0, 0.6]
+water = [[[0, 0], [0.6, 0], [0.6, 0.3], [0, 0.3]]]
+particle_spacing = {spacing}
+"""
+
+SOLITARY = """
+title = "solitary wave"
+[time]
+end = {end}
+window = 0.5
+[flume]
+bed = [[0.0, -0.2], [8.0, -0.2]]
+[gauges]
+middle = 3.0
+wall = 4.98
+[cmps]
+drive = "piston"
+piston_file = "{piston}"
+offshore = 1.0
+onshore = 5.0
+particle_spacing = {spacing}
+"""
+
+
+def write_piston(path, depth=0.2, height=0.04, end=7.0, gravity=9.81):
+    """Goring (1978): dX/dt = c eta / (d + eta) with eta at the plate."""
+    k, c = np.sqrt(3 * height / (4 * depth**3)), np.sqrt(gravity * (depth + height))
+    lead, step, x = 3.8 / (k * c), 0.005, 0.0
+    with open(path, "w") as file:
+        file.write("t,x\n")
+        for i in range(int(end / step) + 1):
+            file.write(f"{i * step:.4f},{x:.8f}\n")
+            for _ in range(2):
+                eta = height / np.cosh(k * (c * ((i + 0.25) * step - lead) - x)) ** 2
+                x += 0.5 * step * c * eta / (depth + eta)
+
+
+def series(folder, gauge, quantity):
+    t, values = [], []
+    for name in sorted(n for n in os.listdir(folder) if n.startswith("window_")):
+        with h5py.File(os.path.join(folder, name)) as file:
+            t.append(file[f"gauges/{gauge}/time"][:])
+            values.append(file[f"gauges/{gauge}/{quantity}"][:])
+    t, values = np.concatenate(t), np.concatenate(values)
+    t, first = np.unique(t, return_index=True)
+    return t, values[first]
+
+
+def still_error(folder, spacing):
+    _, p = series(folder, "floor", "pressure")
+    p = p[len(p) // 2:] / (1000 * 9.81 * (0.3 + 0.5 * spacing))
+    return float(np.sqrt(np.mean((p - 1) ** 2)))
+
+
+def dam_error(folder, _):
+    # levels h/H of the experiment at t sqrt(g/H)
+    measured = {"H1": [[1, 0.93], [2, 0.785], [3, 0.635], [4, 0.50], [5, 0.405]], "H2": [[2, 0.215], [3, 0.26], [4, 0.295], [5, 0.29]]}
+    squares = []
+    for gauge, points in measured.items():
+        t, level = series(folder, gauge, "surface_elevation")
+        for at, value in points:
+            if at <= t[-1] * np.sqrt(9.81 / 0.3):
+                squares.append((np.interp(at, t * np.sqrt(9.81 / 0.3), level / 0.3) - value) ** 2)
+    return float(np.sqrt(np.mean(squares)))
+
+
+def solitary_error(folder, _):
+    t, middle = series(folder, "middle", "surface_elevation")
+    _, wall = series(folder, "wall", "surface_elevation")
+    epsilon = (middle[t < 3.2].max() - middle[t < 0.3].mean()) / 0.2
+    return float(abs((wall.max() - wall[t < 0.3].mean()) / 0.2 / (2 * epsilon + epsilon**2 / 2 + 0.75 * epsilon**3) - 1))
+
+
+CASES = {
+    "still": (STILL, 0.3, 4.0, still_error, "rms of p/(rho g h) - 1"),
+    "dam": (DAM, 0.3, 0.9, dam_error, "rms of levels over H, against the experiment"),
+    "solitary": (SOLITARY, 0.2, 4.5, solitary_error, "run-up at the wall, relative"),
+}
+LADDER = [8, 12, 16, 24, 30, 40]
+FACTORS = [
+    ("gradient", ["gradient=standard", "gradient=modified", "gradient=antisymmetric", "gradient=antisymmetric_local"]),
+    ("source", ["source=density", "source=corrected", "source=error_compensating"]),
+    ("laplacian", ["laplacian=higher_order"]),
+    ("surface", ["surface=detected"]),
+    ("kernel", ["kernel_radius=2.1", "kernel_radius=3.1", "kernel=rational"]),
+    ("time_stepping", ["time_stepping=predicted"]),
+    ("shifting", ["shifting=0", "shifting=0.1"]),
+    ("stabilisation", ["stabilisation=0", "stabilisation=0.8"]),
+    ("tolerance", ["tolerance=1e-2", "tolerance=1e-5"]),
+    ("courant", ["courant=0.1", "courant=0.4"]),
+]
+
+
+def measure(arguments, case, particles_over_depth, factor, setting):
+    template, depth, end, error_of, error_is = CASES[case]
+    if arguments.smoke:
+        end = min(end, 3.4 if case == "solitary" else 0.4)
+    spacing = depth / particles_over_depth
+    name = f"{case}_{particles_over_depth}_{setting.replace('=', '_').replace('.', '')}"
+    scene = os.path.join(arguments.out, name + ".toml")
+    piston = os.path.abspath(os.path.join(arguments.out, "piston.csv"))
+    with open(scene, "w") as file:
+        file.write(template.format(spacing=spacing, end=end, piston=piston))
+    walls, record = [], {}
+    for repeat in range(arguments.repeats):
+        folder = os.path.join(arguments.out, f"{name}_{repeat}")
+        command = [os.path.join(arguments.bin, "cmps"), "run", scene, "--out", folder, "--quiet"]
+        if setting != "-":
+            command += ["--set", "cmps." + setting]
+        subprocess.run(command, capture_output=True)
+        with open(os.path.join(folder, "run.json")) as file:
+            record = json.load(file)
+        walls.append(record["wall_time"])
+    is_done = record["status"] == "done"
+    figures = record.get("figures", {})
+    return ["cmps", case, factor, str(particles_over_depth) if factor == "resolution" else setting,
+            f"{error_of(folder, spacing):.5f}" if is_done else "", error_is, f"{np.median(walls):.3f}", f"{min(walls):.3f}", f"{max(walls):.3f}",
+            f"{record['cpu_time']:.3f}", f"{record['peak_memory'] / 1e6:.1f}", int(figures.get("steps", 0)),
+            int(figures.get("particles", {}).get("all", 0)), record["status"] if is_done else record.get("message", "failed")[:60]]
+
+
+def draw(rows, path):
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    figure, axes = plt.subplots(1, len(CASES), figsize=(5 * len(CASES), 4.2))
+    for axis, case in zip(axes, CASES):
+        good = [(float(r[9]), float(r[4]), r) for r in rows if r[1] == case and r[4]]
+        ladder = sorted((t, e) for t, e, r in good if r[2] == "resolution")
+        others = [(t, e, r[3]) for t, e, r in good if r[2] != "resolution"]
+        axis.loglog([t for t, _ in ladder], [e for _, e in ladder], "o-", label="resolution")
+        for t, e, label in others:
+            axis.loglog(t, e, ".", color="0.5")
+            axis.annotate(label, (t, e), fontsize=6, color="0.3")
+        front, least = [], np.inf
+        for t, e in sorted((t, e) for t, e, _ in good):
+            if e < least:
+                front.append((t, e))
+                least = e
+        axis.loglog([t for t, _ in front], [e for _, e in front], "k--", lw=0.8, label="Pareto front")
+        if len(ladder) > 1:
+            order = np.polyfit(np.log([float(r[3]) for _, _, r in good if r[2] == "resolution"]), np.log([e for _, e, r in good if r[2] == "resolution"]), 1)[0]
+            axis.set_title(f"{case}: order {-order:.1f} in l0")
+        axis.set_xlabel("CPU time (s)")
+        axis.set_ylabel(CASES[case][4])
+        axis.legend(fontsize=7)
+    figure.tight_layout()
+    figure.savefig(path, dpi=120)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--bin", required=True)
+    parser.add_argument("--out", required=True)
+    parser.add_argument("--smoke", action="store_true", help="coarsest levels and short runs")
+    parser.add_argument("--repeats", type=int, default=1)
+    parser.add_argument("--scene", help="accepted for the common command line; cost_scene.py runs a scene's ladder")
+    arguments = parser.parse_args()
+    os.makedirs(arguments.out, exist_ok=True)
+    write_piston(os.path.join(arguments.out, "piston.csv"))
+    rows = []
+    for case in CASES:
+        for level in LADDER[:2] if arguments.smoke else LADDER:
+            rows.append(measure(arguments, case, level, "resolution", "-"))
+            print(",".join(map(str, rows[-1])), flush=True)
+        for factor, settings in FACTORS[:1] if arguments.smoke else FACTORS:
+            for setting in settings:
+                rows.append(measure(arguments, case, 8 if arguments.smoke else 20, factor, setting))
+                print(",".join(map(str, rows[-1])), flush=True)
+    with open(os.path.join(arguments.out, "cmps_cost.csv"), "w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(HEAD)
+        writer.writerows(rows)
+    draw(rows, os.path.join(arguments.out, "cmps_cost.png"))
+
+
+if __name__ == "__main__":
+    main()
