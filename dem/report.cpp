@@ -1,9 +1,12 @@
 #include "dem/report.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "common/errors.hpp"
 #include "dem/damage.hpp"
 
 namespace dem {
@@ -31,12 +34,30 @@ void Report::set_first_energy(const EnergyBudget& energy) {
 
 double closure_error(const EnergyBudget& energy, double first_balance, double first_size) {
     // What changed hands: through contacts and water, and what was there to start with.
-    const double exchanged = energy.dissipated + energy.gross_water_work + first_size;
+    const double exchanged = std::abs(energy.dissipated) + energy.gross_water_work + first_size;
     return exchanged > 0 ? (energy.balance() - first_balance) / exchanged : 0;
 }
 
 void Report::look(const Simulation& simulation) {
-    smallest_limit_ = std::min(smallest_limit_, simulation.stable_time_step());
+    const double limit = simulation.stable_time_step();
+    smallest_limit_ = std::min(smallest_limit_, limit);
+    // A hit lowers the limit for an instant; a bed that stays past it trembles for ever. The bound itself
+    // errs by some percent.
+    past_limit_ = simulation.rules().time_step > 1.2 * limit ? past_limit_ + 1 : 0;
+    if (past_limit_ >= 2)
+        throw common::RunError(
+            fmt::format("t = {:.5f} s: the time step of {:.2g} s is past the limit of {:.2g} s that the "
+                        "contacts set; shorten dem.time_step",
+                        simulation.time(), simulation.rules().time_step, limit));
+    const EnergyBudget energy = simulation.energy();
+    const double error = closure_error(energy, first_balance_, first_size_);
+    // Contacts take energy, they never give any; and a balance a third off is no error of a usable step.
+    if (energy.dissipated < -0.1 * (energy.gross_water_work + first_size_) || std::abs(error) > 1.0 / 3)
+        throw common::RunError(
+            fmt::format("t = {:.5f} s: the energy budget does not close ({:.2g} J dissipated, balance off by "
+                        "{:.2g} of what was exchanged); "
+                        "shorten dem.time_step",
+                        simulation.time(), energy.dissipated, error));
 }
 
 void Report::window_done(const Simulation& simulation, const PackedPoses& packed, std::int64_t windows) {
@@ -88,12 +109,14 @@ void Report::store(common::DataFile& state) const {
     state.attributes["first_balance"] = first_balance_;
     state.attributes["first_size"] = first_size_;
     state.attributes["smallest_limit"] = smallest_limit_;
+    state.attributes["past_limit"] = static_cast<std::int64_t>(past_limit_);
 }
 
 void Report::restore(const common::DataFile& state) {
     first_balance_ = state.number("first_balance");
     first_size_ = state.number("first_size");
     smallest_limit_ = state.number("smallest_limit");
+    past_limit_ = static_cast<int>(state.integer("past_limit"));
     first_block_steps_ = static_cast<std::uint64_t>(state.integer("awake_block_steps"));
 }
 

@@ -15,7 +15,9 @@ class Report {
            const std::string& scene_digest, const std::string& input_digest);
     /// The energies that later balances are held against.
     void set_first_energy(const EnergyBudget& energy);
-    /// Looks at the stability limit of the present contacts (at every sample).
+    /// Looks at the stability limit of the present contacts and at the energy budget (at every sample).
+    /// Throws common::RunError when the step stays past the limit or the budget does not close: the run is
+    /// unstable.
     void look(const Simulation& simulation);
     /// Figures and invariants at the end of a window.
     void window_done(const Simulation& simulation, const PackedPoses& packed, std::int64_t windows);
@@ -30,6 +32,7 @@ class Report {
     common::RunRecord record_;
     const Scene& scene_;
     double first_balance_ = 0, first_size_ = 0, smallest_limit_, stepping_seconds_ = 0;
+    int past_limit_ = 0;                   ///< samples in a row
     std::uint64_t first_block_steps_ = 0;  ///< of the run this one goes on from
 };
 

@@ -33,7 +33,7 @@ options = arguments.parse_args()
 options.out.mkdir(parents=True, exist_ok=True)
 work = options.out / "cost_dem_runs"
 work.mkdir(exist_ok=True)
-seeds = range(1, 3 if options.smoke else 11)
+seeds = range(1, 3 if options.smoke else 7)
 
 ARMOUR = """
 accuracy = "standard"
@@ -139,8 +139,8 @@ for interval in ends_of([0.04, 0.02, 0.01, 0.005, 0.0025]):
 
 
 def current(t, X, Z):
-    """1.1 m/s and 1.65 s, coming on over the first period."""
-    omega, speed = 2 * math.pi / 1.65, 1.1 * min(1.0, t / 1.65)
+    """0.95 m/s and 1.65 s, coming on over the first period."""
+    omega, speed = 2 * math.pi / 1.65, 0.95 * min(1.0, t / 1.65)
     return speed * numpy.sin(omega * t), 0.0, speed * omega * numpy.cos(omega * t), 0.0, 1.0
 
 
@@ -157,7 +157,7 @@ def ensemble(name, *settings):
 
 def half_width(values):
     """Of the 95 % confidence interval of the mean (Student's t)."""
-    t = {2: 12.71, 5: 2.78, 10: 2.26}.get(len(values), 2.0)
+    t = {2: 12.71, 6: 2.57}.get(len(values), 2.0)
     return t * values.std(ddof=1) / math.sqrt(len(values))
 
 
