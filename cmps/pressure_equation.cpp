@@ -108,6 +108,10 @@ void PressureEquation::assemble(const Particles& particles, const NeighbourLists
         double source = inner * settings_.density_weight / time_step * density_error[row];
         if (settings_.source != Source::density) {
             const double convergence = -divergence(particles, lists, interactions, row);
+            if (settings_.source == Source::error_compensating) {
+                const double a = density_error[row];
+                source = inner * (std::abs(a) * convergence + std::abs(convergence) * a);
+            }
             source += row < particles.walls && convergence > 0 ? convergence : inner * convergence;
         }
         right_hand_side[static_cast<std::size_t>(unknown_of[row])] =
