@@ -9,7 +9,7 @@ void Containment::end_step(NearField& field, double, double) {
     const NeighbourLists& lists = field.search.lists();
     const std::size_t first = particles.first_fluid(), walls = particles.walls;
     const double l0 = field.settings.spacing,
-                 near2 = 0.81 * l0 * l0;  // faces stand l0/2 ahead of their particles
+                 near2 = 6.25 * l0 * l0;  // a sharp tip has no wall particle nearer
     for (std::size_t f = 0; f < particles.fluid; ++f) {
         const std::size_t i = first + f, row = walls + f;
         bool is_near = false;
