@@ -11,7 +11,8 @@
 ///     it exact for
 ///                                                                        a linear velocity on the lattice)
 ///     corrected    D/n0 sum u*_ij . (C_i r_ij) w / r^2                  exact for a linear velocity anywhere
-///     error_compensating  higher_order with |a| Dn/Dt + |Dn/Dt| a, a = (n - n0)/n0, in place of the gamma term
+///     error_compensating  higher_order with |a| Dn/Dt + |Dn/Dt| a, a = (n - n0)/n0, in place of the gamma
+///     term
 ///                  (ECS, Khayyer & Gotoh 2011; Dn/Dt of the predicted velocity)
 #pragma once
 

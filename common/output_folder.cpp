@@ -1,12 +1,6 @@
 #include "common/output_folder.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
 
 #include "common/errors.hpp"
 #include "common/run_record.hpp"
@@ -44,27 +38,8 @@ bool is_finished(const fs::path& folder, const RunIdentity& identity) {
 
 }  // namespace
 
-FolderLock::FolderLock(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error)
-        throw InputError(
-            fmt::format("{}: cannot create the output folder: {}", folder.string(), error.message()));
-    descriptor_ = ::open((folder / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-    if (descriptor_ < 0)
-        throw InputError(fmt::format("{}: cannot write here: {}", folder.string(), std::strerror(errno)));
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-        ::close(descriptor_);
-        throw InputError(fmt::format("{}: another run is writing here", folder.string()));
-    }
-}
-
-FolderLock::~FolderLock() {
-    ::close(descriptor_);
-}
-
 OutputFolder::OutputFolder(fs::path folder, RunIdentity identity, bool resume)
-    : folder_(std::move(folder)), identity_(std::move(identity)), lock_(folder_) {
+    : folder_(std::move(folder)), identity_(std::move(identity)), lock_(folder_, "run") {
     remove_files(folder_, is_temporary);
 
     if (is_finished(folder_, identity_)) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/data_file.hpp"
+#include "common/folder_lock.hpp"
 #include "common/window.hpp"
 #include "common/xdmf.hpp"
 
@@ -15,19 +16,6 @@ namespace common {
 /// Names the run that writes into a folder.
 struct RunIdentity {
     std::string stage, scene_digest, input_digest;
-};
-
-/// Holds DIR/.lock while it lives.
-class FolderLock {
- public:
-    /// Creates the folder when needed. Throws InputError when it cannot be written or another run holds it.
-    explicit FolderLock(const std::filesystem::path& folder);
-    ~FolderLock();
-    FolderLock(const FolderLock&) = delete;
-    FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-    int descriptor_;
 };
 
 /// Opens DIR for one run at a time (a lock is held while it lives).

@@ -1,21 +1,18 @@
 #include "coupler/chain.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <list>
 #include <memory>
 #include <thread>
 
 #include "common/chain_record.hpp"
 #include "common/errors.hpp"
+#include "common/folder_lock.hpp"
 #include "common/scene_file.hpp"
 #include "coupler/board.hpp"
 #include "coupler/scene_check.hpp"
@@ -29,32 +26,6 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 namespace {
-
-/// Holds DIR for one coupler at a time. Throws InputError when it cannot be had.
-class FolderLock {
- public:
-    explicit FolderLock(const fs::path& folder) {
-        std::error_code error;
-        fs::create_directories(folder, error);
-        if (error)
-            throw common::InputError(
-                fmt::format("{}: cannot create the folder: {}", folder.string(), error.message()));
-        file_ = ::open((folder / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-        if (file_ < 0)
-            throw common::InputError(
-                fmt::format("{}: cannot write here: {}", folder.string(), std::strerror(errno)));
-        if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
-            ::close(file_);
-            throw common::InputError(fmt::format("{}: another chain is running here", folder.string()));
-        }
-    }
-    ~FolderLock() { ::close(file_); }
-    FolderLock(const FolderLock&) = delete;
-    FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-    int file_ = -1;
-};
 
 /// Tells one writing of a file from the next: it is replaced by renaming, so inode or time changes.
 struct FileVersion {
@@ -277,8 +248,10 @@ int Chain::fail(const RunningStage& cause) {
 
 int Chain::interrupt() {
     end_all(SIGINT);
+    // On a terminal Ctrl-C reaches the stages as well, perhaps before this program.
     for (auto& stage : stages_)
-        if (stage.record.status == "stopped") stage.record.status = "interrupted";
+        if (stage.record.status == "stopped" || stage.record.exit_status == common::exit_interrupted)
+            stage.record.status = "interrupted";
     board_.finish(lines());
     board_.say(
         fmt::format("coupler: interrupted; finished windows are kept in {}, --resume goes on from them",
@@ -323,7 +296,7 @@ int run_chain(const Command& command) {
     const auto stages = stages_of(command);
     check_scene(command, stages);
     const auto time = common::read_time(common::SceneFile::read(command.scene, command.overrides));
-    const FolderLock lock(command.folder);
+    const common::FolderLock lock(command.folder, "chain");
     return Chain(command, stages, time).run();
 }
 
