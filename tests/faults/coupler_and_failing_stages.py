@@ -38,9 +38,9 @@ trap 'echo "{name}: interrupted" >&2; exit 130' INT TERM
     return programs
 
 
-def start_chain(folder, programs):
+def start_chain(folder, programs, **options):
     return subprocess.Popen([programs / "coupler", "run", folder / "scene.toml", "--out", folder / "chain"], text=True,
-                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment())
+                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment(), **options)
 
 
 def end_of(chain, timeout=20):
@@ -124,6 +124,17 @@ def control_c_is_passed_on(folder):
     check(record(folder)["status"] == "interrupted", record(folder))
     check(not process_ids(folder), "stages still run")
     check_below("time to stop", time.monotonic() - begun, 5, "s", "stages stop within a step")
+
+
+@test
+def control_c_on_a_terminal_reaches_all_at_once(folder):
+    programs = stand_ins(folder, boussinesq=WORKS_ON, cmps=WORKS_ON, dem=WORKS_ON)
+    chain = start_chain(folder, programs, start_new_session=True)
+    wait_for((folder / "chain/blocks/run.json").exists, 10, "the last stage")
+    os.killpg(chain.pid, signal.SIGINT)
+    status, messages = end_of(chain)
+    check(status == 130, f"status {status}: {messages}")
+    check(statuses(folder) == ["interrupted"] * 3, statuses(folder))
 
 
 @test
