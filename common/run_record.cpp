@@ -165,10 +165,15 @@ UpstreamStatus read_upstream_status(const std::filesystem::path& folder) {
 }
 
 double peak_memory() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    constexpr double bytes_per_kilobyte = 1024;  // Linux counts ru_maxrss so
-    return bytes_per_kilobyte * static_cast<double>(usage.ru_maxrss);
+    // Not ru_maxrss: a process started by a large one would inherit that one's peak.
+    std::ifstream status("/proc/self/status");
+    for (std::string word; status >> word;) {
+        if (word != "VmHWM:") continue;
+        double kilobytes = 0;
+        status >> kilobytes;
+        return 1024 * kilobytes;
+    }
+    return 0;
 }
 
 }  // namespace common
