@@ -33,8 +33,9 @@ double start_time(const cmps::Scene& scene, cmps::WaveField* waves) {
         throw common::InputError(fmt::format(
             "the waves never reach cmps.offshore = {:g} m: |surface elevation| stays below {:g} m",
             scene.offshore, scene.arrival_threshold));
-    // whole windows, so that this stage's windows are those of the stage before
-    return std::floor(arrival / scene.time.window) * scene.time.window;
+    // On a grid of its own, so that the start, and every step after it, does not depend on the window length.
+    constexpr double grain = 0.5;  // s
+    return std::floor(arrival / grain) * grain;
 }
 
 /// What the levels cost in accuracy: standing wave of half a tank, five periods (tests/verification/cmps).
