@@ -82,6 +82,10 @@ Forecast forecast(const Scene& scene) {
 }
 
 void print_check(const common::SceneFile& file, const Scene& scene, bool all) {
+    if (all) {
+        fmt::print("{}", file.reference());
+        return;
+    }
     fmt::print("effects\n");
     for (const auto& effect : scene.effects)
         fmt::print("  {:<12} {:<4} {}\n", effect.name, effect.is_on ? "on" : "off", effect.reason);
@@ -94,7 +98,6 @@ void print_check(const common::SceneFile& file, const Scene& scene, bool all) {
     if (expected.relative_error > 0)
         fmt::print("  error        about {:.1g} of the wave height ({})\n", expected.relative_error,
                    expected.error_from);
-    if (all) fmt::print("\n{}", file.reference());
 }
 
 }  // namespace boussinesq

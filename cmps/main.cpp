@@ -45,7 +45,10 @@ std::string expected_error(double particles_over_depth) {
 }
 
 int check(const common::StageCommand& command, const common::SceneFile& file, const cmps::Scene& scene) {
-    if (command.all) std::cout << file.reference() << "\n";
+    if (command.all) {
+        std::cout << file.reference();
+        return common::exit_done;
+    }
     std::cout << "effects:\n";
     for (const auto& effect : scene.effects)
         std::cout << fmt::format("  {:<18} {:<4} {}\n", effect.name, effect.is_on ? "on" : "off",

@@ -28,18 +28,33 @@ void remove_files(const fs::path& folder, const Test& test) {
         if (entry.is_regular_file() && test(entry.path().filename().string())) fs::remove(entry.path());
 }
 
+/// True for a finished run of the same scene and input whose windows are all there and whole.
 bool is_finished(const fs::path& folder, const RunIdentity& identity) {
-    if (read_upstream_status(folder).state != UpstreamStatus::State::done) return false;
-    const fs::path first = window_path(folder, 0);
-    if (!fs::exists(first)) return false;
-    const Window window = read_window(first, identity.stage, {});
-    return window.scene_digest == identity.scene_digest && window.input_digest == identity.input_digest;
+    const UpstreamStatus status = read_upstream_status(folder);
+    if (status.state != UpstreamStatus::State::done) return false;
+    if (status.windows == 0) return false;
+    try {
+        for (std::int64_t k = 0; k < status.windows; ++k) {
+            const Window window = read_window(window_path(folder, k), identity.stage, {});
+            if (window.scene_digest != identity.scene_digest || window.input_digest != identity.input_digest)
+                return false;
+        }
+    } catch (const InputError& fault) {
+        fmt::print(stderr, "{}: {}: the finished run is damaged and is computed again\n", identity.stage,
+                   fault.what());
+        return false;
+    }
+    return true;
 }
 
 }  // namespace
 
 OutputFolder::OutputFolder(fs::path folder, RunIdentity identity, bool resume)
     : folder_(std::move(folder)), identity_(std::move(identity)), lock_(folder_, "run") {
+    if (const std::string stage = read_upstream_status(folder_).stage;
+        !stage.empty() && stage != identity_.stage)
+        throw InputError(fmt::format("{}: holds a run of {}; give {} a folder of its own", folder_.string(),
+                                     stage, identity_.stage));
     remove_files(folder_, is_temporary);
 
     if (is_finished(folder_, identity_)) {

@@ -145,11 +145,11 @@ void RunRecord::write(const std::string& status, const std::string& message) {
 UpstreamStatus read_upstream_status(const std::filesystem::path& folder) {
     using State = UpstreamStatus::State;
     std::ifstream stream(folder / "run.json");
-    if (!stream) return {State::absent, 0, ""};
+    if (!stream) return {State::absent, 0, "", ""};
     const Json record = Json::parse(stream, nullptr, false);
-    if (record.is_discarded() || !record.is_object()) return {State::absent, 0, ""};
+    if (record.is_discarded() || !record.is_object()) return {State::absent, 0, "", ""};
     UpstreamStatus status{State::running, record.value("windows", std::int64_t{0}),
-                          record.value("message", "")};
+                          record.value("message", ""), record.value("stage", "")};
     const std::string word = record.value("status", "");
     if (word == "done") status.state = State::done;
     if (word == "failed") status.state = State::failed;

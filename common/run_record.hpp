@@ -82,6 +82,7 @@ struct UpstreamStatus {
     enum class State { absent, running, done, failed, interrupted, died } state;
     std::int64_t windows = 0;
     std::string message;
+    std::string stage;  ///< the program that wrote it; empty when absent
 };
 /// Reads DIR/run.json; `died`: it says running on this host but the process is gone.
 UpstreamStatus read_upstream_status(const std::filesystem::path& folder);

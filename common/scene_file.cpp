@@ -59,9 +59,10 @@ const std::vector<std::string> known_root_keys = {"title", "accuracy"};
 
 /// Effects of all stages: a stage reads its own and lets the others' stand.
 const std::vector<std::string> known_effects = {
-    "dispersion",   "breaking",   "shoreline",     "friction",                                // boussinesq
-    "viscosity",    "turbulence", "overflow",      "overtopping",        "start_at_arrival",  // cmps
-    "fluid_force",  "wires",      "wire_breaking", "tangential_history", "sleeping",
+    "dispersion",       "breaking",   "shoreline",     "friction",  // boussinesq
+    "viscosity",        "turbulence", "wall_overflow", "overtopping_basin",  "relaxation_zone",
+    "start_at_arrival",  // cmps
+    "fluid_force",      "wires",      "wire_breaking", "tangential_history", "sleeping",
     "still_windows"};  // dem
 
 std::string dotted_name(const std::string& section, std::string_view key) {
@@ -523,6 +524,7 @@ void apply_override(SceneData& scene, const std::string& word) {
     } catch (const toml::parse_error&) {
         parsed.insert_or_assign("value", text);
     }
+    if (parsed.size() != 1) throw InputError(fmt::format("--set {}: expected one value", word));
     toml::table* table = &scene.tree;
     std::size_t from = 0;
     for (auto dot = dotted.find('.'); dot != std::string::npos;
@@ -599,7 +601,7 @@ Section SceneFile::foreign_section(std::string_view name) const {
 }
 
 bool SceneFile::has_section(std::string_view name) const {
-    return data_->tree.at_path(name).is_table();
+    return static_cast<bool>(data_->tree.at_path(name));
 }
 
 Accuracy SceneFile::accuracy() const {

@@ -133,6 +133,7 @@ class SceneFile {
     Section foreign_section(std::string_view name) const;
     /// The top level itself, for `title`.
     Section root() const;
+    /// True where the scene says anything under this name, be it of the wrong kind.
     bool has_section(std::string_view name) const;
     /// `accuracy`, default standard.
     Accuracy accuracy() const;

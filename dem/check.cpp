@@ -35,7 +35,10 @@ double seconds_per_step(const Scene& scene) {
 }  // namespace
 
 void check(const common::StageCommand& command, const common::SceneFile& file, const Scene& scene) {
-    if (command.all) fmt::print("{}\n", file.reference());
+    if (command.all) {
+        fmt::print("{}", file.reference());
+        return;
+    }
     std::size_t spheres = 0, moving = 0;
     for (std::size_t i = 0; i < scene.placed.size(); ++i) {
         spheres += scene.placed.shape_of(i).spheres.size();

@@ -23,7 +23,12 @@ int main(int argc, char** argv) {
         common::use_threads(command.threads);
         const auto file = common::SceneFile::read(command.scene, command.overrides);
         std::optional<common::SceneFile> layout;
-        if (!command.wires.empty()) layout = common::SceneFile::read(command.wires);
+        if (!command.wires.empty()) {
+            layout = common::SceneFile::read(command.wires);
+            for (const auto& key : layout->root().keys())
+                if (key != "wires" && key != "title")
+                    layout->root().problem(key, "does not belong in a layout, which holds [wires] only");
+        }
         const dem::Scene scene = dem::read_scene(file, layout ? &*layout : nullptr);
         file.finish();
         if (layout) layout->finish();

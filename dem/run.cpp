@@ -248,15 +248,12 @@ void run(const common::StageCommand& command, const common::SceneFile& file, con
         Simulation& simulation = *start.simulation;
         folder.write_geometry(
             geometry_of(simulation, start.packed, placement_digest(scene.placed, scene.surroundings)));
-        common::XdmfIndex pictures;
         for (std::int64_t index = folder.next_window(); span; span = flow.receive(++index)) {
             if (span->grid && simulation.water() != nullptr)
                 simulation.water()->motion = std::move(*span->grid);
             common::Window window =
                 advance(simulation, start.packed, scene, span->begin, span->end, index, progress, report);
-            pictures.add(window);
             folder.publish(std::move(window), state_of(simulation, start.packed, scene, report));
-            pictures.write(command.out, "dem");
             report.window_done(simulation, start.packed, index + 1);
         }
     } catch (const common::Interrupted&) {

@@ -186,6 +186,8 @@ TEST(SceneFile, OverrideOfAnUnknownKeyIsRefused) {
 TEST(SceneFile, OverrideWithoutValueIsRefused) {
     const std::vector<std::string> overrides = {"waves.height"};
     EXPECT_THROW(SceneFile::parse("", "a.toml", overrides), InputError);
+    const std::vector<std::string> two_lines = {"waves.height=0.1\nx=3"};
+    EXPECT_THROW(SceneFile::parse("", "a.toml", two_lines), InputError);
 }
 
 TEST(SceneFile, DigestFollowsValuesNotTitleOrLayout) {

@@ -262,8 +262,15 @@ TEST(OutputFolder, GoesOnFromItsStateOnlyWhenAskedAndOnlyForTheSameScene) {
                           OutputFolder out(folder.path, {"boussinesq", "xyz", ""}, true);
                       }),
                       "belongs to another scene"));
-    RunRecord(folder.path, "boussinesq").write_ended("done");
+    RunRecord record(folder.path, "boussinesq");
+    record.set_windows(1);
+    record.write_ended("done");
     EXPECT_EQ(OutputFolder(folder.path, identity, false).start(), OutputFolder::Start::nothing_to_do);
+    EXPECT_TRUE(holds(input_error([&] {
+                          OutputFolder other(folder.path, {"dem", "abc", ""}, false);
+                      }),
+                      "holds a run of boussinesq"));
+    EXPECT_TRUE(fs::exists(window_path(folder.path, 0))) << "another stage's window was removed";
     std::ofstream(folder.path / "notes.txt") << "the user's";
     EXPECT_EQ(OutputFolder(folder.path, {"boussinesq", "xyz", ""}, false).start(),
               OutputFolder::Start::fresh);
@@ -305,4 +312,15 @@ TEST(XdmfIndex, NamesEverySampleOfEveryWindow) {
     for (auto at = text.find("<Time "); at != std::string::npos; at = text.find("<Time ", at + 1)) ++times;
     EXPECT_EQ(times, 6u);
     EXPECT_TRUE(holds(text, "window_000001.h5:/surface_elevation"));
+}
+
+TEST(OutputFolder, ADamagedFinishedRunIsComputedAgain) {
+    const TemporaryFolder folder;
+    const RunIdentity identity{"boussinesq", "abc", ""};
+    OutputFolder(folder.path, identity, false).publish(sample_window(0), {});
+    RunRecord record(folder.path, "boussinesq");
+    record.set_windows(1);
+    record.write_ended("done");
+    fs::resize_file(window_path(folder.path, 0), 100);
+    EXPECT_EQ(OutputFolder(folder.path, identity, false).start(), OutputFolder::Start::fresh);
 }
