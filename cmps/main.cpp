@@ -35,7 +35,9 @@ double start_time(const cmps::Scene& scene, cmps::WaveField* waves) {
             scene.offshore, scene.arrival_threshold));
     // On a grid of its own, so that the start, and every step after it, does not depend on the window length.
     constexpr double grain = 0.5;  // s
-    return std::floor(arrival / grain) * grain;
+    // Half a second ahead: what comes before the threshold is passed moves water too.
+    constexpr double ahead = 0.5;  // s
+    return std::max(0.0, std::floor((arrival - ahead) / grain) * grain);
 }
 
 /// What the levels cost in accuracy: standing wave of half a tank, five periods (tests/verification/cmps).
