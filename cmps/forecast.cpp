@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "cmps/near_field.hpp"
-#include "cmps/simulation.hpp"
+#include "cmps/scene_geometry.hpp"
 
 namespace cmps {
 namespace {

@@ -71,9 +71,6 @@ class NearField {
     PhaseSeconds seconds;
     StepCounts counts;
 
-    /// Lists are built anew in the next step: done at every window, so that a resumed run repeats it.
-    void invalidate_order() { search.invalidate(); }
-
  private:
     void drift(double step);
     void update_geometry();
@@ -93,10 +90,13 @@ class NearField {
  public:
     double acceleration_smoothing = 0;  ///< s: time over which Du/Dt is averaged along the path
     double largest_speed() const { return largest_speed_; }
-    /// Largest speed and acceleration decide the next step; part of the state.
-    std::vector<double> step_state() const { return {largest_speed_, largest_acceleration_}; }
+    /// Largest speed, acceleration and gravity decide the next step; part of the state.
+    std::vector<double> step_state() const {
+        return {largest_speed_, largest_acceleration_, settings.gravity_x, settings.gravity_z};
+    }
     void restore_step_state(const std::vector<double>& state) {
-        largest_speed_ = state[0], largest_acceleration_ = state[1];
+        largest_speed_ = state.at(0), largest_acceleration_ = state.at(1);
+        settings.gravity_x = state.at(2), settings.gravity_z = state.at(3);
     }
 };
 

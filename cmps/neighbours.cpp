@@ -38,12 +38,27 @@ bool NeighbourSearch::update(Particles& particles, const std::vector<std::vector
         }
         if (largest < allowed) return false;
     }
+    build(particles, companions);
+    return true;
+}
+
+void NeighbourSearch::restore(const Particles& particles, const std::vector<double>& x,
+                              const std::vector<double>& z) {
+    is_valid_ = false;
+    if (x.size() != particles.size()) return;  // someone came or left since: they are built anew anyway
+    Particles then = particles;
+    then.x = x, then.z = z;
+    build(then, {});
+    built_x_ = x, built_z_ = z;
+}
+
+void NeighbourSearch::build(Particles& particles, const std::vector<std::vector<double>*>& companions) {
     const std::size_t count = particles.size(), first = particles.first_wall(), rows = count - first;
     lists_.start.assign(rows + 1, 0);
     lists_.carriers.assign(rows, 0);
     lists_.neighbour.clear();
     is_valid_ = true;
-    if (count == 0) return true;
+    if (count == 0) return;
 
     const double reach = radius_ + skin_, reach2 = reach * reach;
     const Cells cells(particles, 0.5 * reach);
@@ -123,7 +138,6 @@ bool NeighbourSearch::update(Particles& particles, const std::vector<std::vector
         std::copy_n(blocks_[b].begin(), lists_.start[to] - lists_.start[from],
                     lists_.neighbour.begin() + lists_.start[from]);
     });
-    return true;
 }
 
 void NeighbourSearch::sort_fluid(Particles& particles, const Cells& cells,

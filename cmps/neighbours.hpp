@@ -24,15 +24,23 @@ class NeighbourSearch {
     /// radius: of the kernel, m; skin: m.
     NeighbourSearch(double radius, double skin) : radius_(radius), skin_(skin) {}
 
-    /// Rebuilds the lists, and reorders the fluid, when a particle has moved half the skin since, or when
-    /// `invalidate` was called. `companions` are further arrays over all particles that must follow the new
-    /// order. Returns true when it did.
+    /// Rebuilds the lists, and reorders the fluid, when a particle has moved half the skin since, came or
+    /// left, or when `invalidate` was called. `companions` are further arrays over all particles that must
+    /// follow the new order. Returns true when it did.
     bool update(Particles& particles, const std::vector<std::vector<double>*>& companions);
     void invalidate() { is_valid_ = false; }
     const NeighbourLists& lists() const { return lists_; }
 
+    /// Places of the particles when the lists were built: what a run must remember to go on with the same
+    /// lists, and so with the same order of sums.
+    const std::vector<double>& built_x() const { return built_x_; }
+    const std::vector<double>& built_z() const { return built_z_; }
+    /// Builds the lists as they were when the particles stood at x, z.
+    void restore(const Particles& particles, const std::vector<double>& x, const std::vector<double>& z);
+
  private:
     struct Cells;
+    void build(Particles& particles, const std::vector<std::vector<double>*>& companions);
     void sort_fluid(Particles& particles, const Cells& cells,
                     const std::vector<std::vector<double>*>& companions);
     void sort_boundary(const Particles& particles, const Cells& cells);

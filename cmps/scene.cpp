@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cmps/scene_geometry.hpp"
+
 namespace cmps {
 namespace {
 
@@ -209,54 +211,6 @@ void read_output(const common::SceneFile& file, const Section& section, Scene& s
 bool Scene::has_effect(const std::string& name) const {
     return std::any_of(effects.begin(), effects.end(),
                        [&](const auto& effect) { return effect.name == name && effect.is_on; });
-}
-
-double bottom_level(const Scene& scene, double x) {
-    return scene.tank ? (*scene.tank)[2] : common::bed_level(scene.bed, x);
-}
-
-Solid make_solid(const Scene& scene) {
-    const double thick = 6.0 * scene.settings.spacing;  // more than the four layers behind a face
-    Solid solid;
-    double x0 = scene.offshore - 3.0, x1 = scene.onshore, low = 0, high = 1e3;
-    if (scene.tank) {
-        const auto [a, b, c, d] = *scene.tank;
-        x0 = a, x1 = b, low = c, high = d;
-        solid.add({{a - thick, c - thick}, {b + thick, c - thick}, {b + thick, c}, {a - thick, c}}, body_bed);
-        solid.add({{a - thick, d}, {b + thick, d}, {b + thick, d + thick}, {a - thick, d + thick}},
-                  body_end_wall);
-        solid.add({{a - thick, c - thick}, {a, c - thick}, {a, d + thick}, {a - thick, d + thick}},
-                  body_end_wall);
-        solid.add({{b, c - thick}, {b + thick, c - thick}, {b + thick, d + thick}, {b, d + thick}},
-                  body_end_wall);
-    } else {
-        Polygon bed(scene.bed.begin(), scene.bed.end());
-        for (const Point& p : bed) low = std::min(low, p[1]);
-        bed.insert(bed.begin(), {std::min(x0, bed.front()[0]) - thick, bed.front()[1]});
-        bed.push_back({std::max(x1, bed.back()[0]) + 2 * thick, bed.back()[1]});
-        bed.push_back({bed.back()[0], low - 2 * thick});
-        bed.push_back({bed.front()[0], low - 2 * thick});
-        solid.add(bed, body_bed);
-        solid.add({{x1, low - thick}, {x1 + thick, low - thick}, {x1 + thick, 3.0 - low}, {x1, 3.0 - low}},
-                  body_end_wall);
-        if (scene.drive == Drive::none) {
-            const double x = scene.offshore;
-            x0 = x;
-            solid.add({{x - thick, low - thick}, {x, low - thick}, {x, 3.0 - low}, {x - thick, 3.0 - low}},
-                      body_end_wall);
-        }
-        low -= thick, high = 2.5 - low;
-    }
-    for (std::size_t k = 0; k < scene.structure.size(); ++k)
-        solid.add(scene.structure[k], static_cast<std::int32_t>(k));
-    solid.find_surface({x0, low}, {x1, high});
-    return solid;
-}
-
-double end_of_water(const Scene& scene, const Solid& solid) {
-    for (double x = scene.offshore; x < scene.onshore; x += 0.25 * scene.settings.spacing)
-        if (solid.contains(x, 0.0)) return x;
-    return scene.onshore;
 }
 
 Scene read_scene(const common::SceneFile& file) {

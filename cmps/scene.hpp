@@ -57,12 +57,4 @@ struct Scene {
 /// Reads and checks all keys; mistakes are noted in `file` and thrown by its finish().
 Scene read_scene(const common::SceneFile& file);
 
-/// Bed, structure and end walls of a scene. Tanks are closed on four sides.
-Solid make_solid(const Scene& scene);
-/// Bed level at x (m); of a tank its floor.
-double bottom_level(const Scene& scene, double x);
-/// Where still water behind the moving wall ends: the first x at which the solid stands above z = 0, or
-/// `onshore`.
-double end_of_water(const Scene& scene, const Solid& solid);
-
 }  // namespace cmps

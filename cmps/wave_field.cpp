@@ -4,11 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/errors.hpp"
 
 namespace cmps {
 namespace {
+
+constexpr double time_slack = 1e-9;  // s: rounding of window ends
+constexpr std::size_t history = 3;   // samples at or before the present: it and two for its slope
 
 /// First and second derivative at the nodes of a smooth field on an even or uneven grid (three-point
 /// formulas).
@@ -50,84 +54,96 @@ WaveField::WaveField(common::WindowReader& reader, double x0, double x1) : reade
     for (std::size_t i = 0; i < bed.size(); ++i) bed[i] = -depth_[i];
     differentiate(x_, bed, bed_x_, bed_xx_);
     eta_.resize(x_.size()), u_.resize(x_.size());
-    first_time_ = last_time_ = window.t_begin;
-}
-
-WaveField::Samples WaveField::cut(const common::Window& window) const {
-    Samples samples;
-    samples.time = window.at("/time").as_double();
-    const auto eta = window.at("/surface_elevation").as_double(), u = window.at("/velocity").as_double();
-    const std::size_t width = window.at("/x").size();
-    for (std::size_t k = 0; k < samples.time.size(); ++k)
-        for (std::size_t i = 0; i < x_.size(); ++i) {
-            samples.elevation.push_back(eta[k * width + first_node_ + i]);
-            samples.velocity.push_back(u[k * width + first_node_ + i]);
-        }
-    return samples;
+    last_time_ = window.t_begin;
 }
 
 bool WaveField::receive_next() {
     const auto window = reader_.receive(next_index_);
     if (!window) return false;
-    samples_.push_back(cut(*window));
+    const auto time = window->at("/time").as_double();
+    const auto eta = window->at("/surface_elevation").as_double(), u = window->at("/velocity").as_double();
+    const std::size_t width = window->at("/x").size(), nodes = x_.size();
+    for (std::size_t k = 0; k < time.size(); ++k) {
+        if (!samples_.empty() && time[k] <= samples_.back().time + time_slack) continue;  // shared by windows
+        const auto from = static_cast<std::ptrdiff_t>(k * width + first_node_);
+        const auto to = from + static_cast<std::ptrdiff_t>(nodes);
+        samples_.push_back({.time = time[k],
+                            .elevation = {eta.begin() + from, eta.begin() + to},
+                            .velocity = {u.begin() + from, u.begin() + to}});
+    }
     last_time_ = window->t_end;
     ++next_index_;
     return true;
 }
 
+/// How many samples lie at or before `time`.
+std::size_t WaveField::samples_until(double time) const {
+    const auto after = std::upper_bound(samples_.begin(), samples_.end(), time + time_slack,
+                                        [](double t, const Sample& sample) { return t < sample.time; });
+    return static_cast<std::size_t>(after - samples_.begin());
+}
+
 void WaveField::cover(double t0, double t1) {
-    constexpr double slack = 1e-9;  // s: rounding of window ends
     if (samples_.empty()) {
         const auto index = reader_.index_at(t0);
-        if (index) next_index_ = *index;
+        // slopes look two samples back: windows before t0 until they are there
+        for (std::int64_t first = index.value_or(0); first >= 0; --first) {
+            next_index_ = first;
+            samples_.clear();
+            while (next_index_ <= index.value_or(0) && receive_next()) {
+            }
+            if (samples_until(t0) >= history) break;
+        }
     }
-    while (samples_.empty() || last_time_ < t1 - slack)
+    while (samples_.empty() || last_time_ < t1 - time_slack)
         if (!receive_next())
             throw common::InputError(
                 fmt::format("the wave windows end at t = {:g} s, but t = {:g} s is needed", last_time_, t1));
-    while (samples_.size() > 1 && samples_.front().time.back() < t0 - slack) samples_.pop_front();
+    const std::size_t past = samples_until(t0);
+    if (past > history)
+        samples_.erase(samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(past - history));
 }
 
 double WaveField::arrival(double x, double threshold, double from) {
     const std::size_t nodes = x_.size();
     std::size_t node = 0;
     while (node + 1 < nodes && x_[node + 1] <= x) ++node;
-    while (receive_next()) {
-        const Samples& samples = samples_.back();
-        for (std::size_t k = 0; k < samples.time.size(); ++k)
-            if (samples.time[k] >= from && std::abs(samples.elevation[k * nodes + node]) >= threshold) {
-                const double t = samples.time[k];
-                samples_.clear(), next_index_ = 0, last_time_ = first_time_;
-                return t;
+    double found = -1;
+    while (found < 0 && receive_next()) {
+        for (const Sample& sample : samples_)
+            if (sample.time >= from && std::abs(sample.elevation[node]) >= threshold) {
+                found = sample.time;
+                break;
             }
-        if (samples_.size() > 1) samples_.pop_front();
+        samples_.clear();
     }
-    return -1;
+    next_index_ = 0;
+    return found;
 }
 
 void WaveField::go_to(double time) {
-    const Samples* samples = &samples_.front();
-    for (const Samples& candidate : samples_)
-        if (candidate.time.front() <= time) samples = &candidate;
-    const auto& t = samples->time;
-    const std::size_t count = t.size(), nodes = x_.size();
-    std::size_t k = static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), time) - t.begin());
-    k = std::clamp<std::size_t>(k, 1, count - 1) - 1;
-    const double h = t[k + 1] - t[k], s = std::clamp((time - t[k]) / h, 0.0, 1.0);
+    const std::size_t count = samples_.size(), nodes = x_.size();
+    if (count < 2) throw common::InputError("a wave window holds a single instant: nothing to interpolate");
+    const std::size_t k = std::clamp<std::size_t>(samples_until(time), 1, count - 1) - 1;
+    const double t0 = samples_[k].time, h = samples_[k + 1].time - t0;
+    const double s = std::clamp((time - t0) / h, 0.0, 1.0);
     const double h00 = (1 + 2 * s) * (1 - s) * (1 - s), h10 = s * (1 - s) * (1 - s) * h;
     const double h01 = s * s * (3 - 2 * s), h11 = s * s * (s - 1) * h;
-    const auto interpolate = [&](const std::vector<double>& f, std::size_t i) {
-        const auto at = [&](std::size_t m) { return f[m * nodes + i]; };
+    const auto interpolate = [&](std::vector<double> Sample::*field, std::size_t i) {
+        const auto at = [&](std::size_t m) { return (samples_[m].*field)[i]; };
+        // of the parabola through sample m and the two before it
         const auto slope = [&](std::size_t m) {
-            if (m == 0) return (at(1) - at(0)) / (t[1] - t[0]);
-            if (m + 1 == count) return (at(m) - at(m - 1)) / (t[m] - t[m - 1]);
-            return (at(m + 1) - at(m - 1)) / (t[m + 1] - t[m - 1]);
+            if (m == 0) return (at(1) - at(0)) / (samples_[1].time - samples_[0].time);
+            const double last = samples_[m].time - samples_[m - 1].time, rise = (at(m) - at(m - 1)) / last;
+            if (m == 1) return rise;
+            const double before = samples_[m - 1].time - samples_[m - 2].time;
+            return rise + last / (last + before) * (rise - (at(m - 1) - at(m - 2)) / before);
         };
         return h00 * at(k) + h10 * slope(k) + h01 * at(k + 1) + h11 * slope(k + 1);
     };
     for (std::size_t i = 0; i < nodes; ++i) {
-        eta_[i] = interpolate(samples->elevation, i);
-        u_[i] = interpolate(samples->velocity, i);
+        eta_[i] = interpolate(&Sample::elevation, i);
+        u_[i] = interpolate(&Sample::velocity, i);
     }
     differentiate(x_, u_, u_x_, u_xx_);
 }

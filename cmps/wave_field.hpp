@@ -4,7 +4,8 @@
 ///     u(z) = u - ((z-b)^2/2 - h^2/6) u_xx + ((z-b) - h/2) (2 b_x u_x + b_xx u)
 ///     w(z) = -(z-b) u_x + b_x u
 ///
-/// Cubic in time between the samples of a window, linear in x between its nodes.
+/// Cubic in time between samples, with slopes from the samples up to each: what is found does not depend on
+/// where windows begin, nor on whether later ones are there. Linear in x between nodes.
 #pragma once
 
 #include <deque>
@@ -19,14 +20,12 @@ class WaveField {
     /// Keeps nodes within [x0, x1] and the nodes around. Throws InputError when the windows do not cover it.
     WaveField(common::WindowReader& reader, double x0, double x1);
 
-    /// Receives windows until `t1` is covered, and forgets those that end before `t0`. Throws InputError when
-    /// the upstream stage ended earlier.
+    /// Receives windows until `t1` is covered, and forgets what `t0` and later do not need. Throws InputError
+    /// when the upstream stage ended earlier.
     void cover(double t0, double t1);
     /// First time from `from` on at which |surface elevation| or |velocity| at x reaches the thresholds;
     /// receives windows as it goes. Negative when the waves end before.
     double arrival(double x, double elevation_threshold, double from);
-
-    double first_time() const { return first_time_; }
 
     /// Makes `time` the present: interpolates all nodes.
     void go_to(double time);
@@ -37,19 +36,21 @@ class WaveField {
     void velocity(double x, double z, double& u, double& w) const;
 
  private:
-    struct Samples {
-        std::vector<double> time, elevation, velocity;  // (nt), (nt, nodes)
+    /// One instant: elevation and velocity at the nodes.
+    struct Sample {
+        double time;
+        std::vector<double> elevation, velocity;
     };
-    Samples cut(const common::Window& window) const;
     bool receive_next();
+    std::size_t samples_until(double time) const;
     std::size_t node_left_of(double x, double& share) const;
 
     common::WindowReader& reader_;
     std::int64_t next_index_ = 0;
-    double first_time_ = 0, last_time_ = 0;
+    double last_time_ = 0;
     std::size_t first_node_ = 0;
     std::vector<double> x_, depth_;
-    std::deque<Samples> samples_;
+    std::deque<Sample> samples_;
     std::vector<double> eta_, u_, u_x_, u_xx_, bed_x_, bed_xx_;
 };
 

@@ -33,24 +33,12 @@ def series(chain):
 
 
 def check_same_results(chain, other):
-    """The waves bit for bit. The near field sorts its particles anew where a window begins, which changes the order of
-    sums, and particle flow is chaotic: there, and in the blocks, differences of rounding may grow, but only so far."""
+    """Bit for bit: nothing a stage computes depends on where its windows end."""
     first, second = series(chain), series(other)
     for name in first:
         check(first[name].shape == second[name].shape, f"{name}: {first[name].shape} and {second[name].shape} values")
-        if name.startswith("waves") or " time of " in name:
-            check_below(f"largest difference of {name}", numpy.abs(first[name] - second[name]).max(), 0, "",
-                        "the same steps, so the same bits")
-    beginning = first["flow time of /flow/velocity"] < first["flow time of /flow/velocity"][0] + 0.06
-    difference = numpy.abs(first["flow /flow/velocity"] - second["flow /flow/velocity"])[beginning].max()
-    check_below("largest difference of velocity in the first 0.06 s", difference, 1e-3, "m/s", "rounding after some 10 steps")
-    for gauge in ("link", "front"):
-        time, elevation = run_folder.gauge(other / "flow", gauge)
-        difference = numpy.interp(time, *run_folder.gauge(chain / "flow", gauge)) - elevation
-        check_below(f"RMS difference at gauge {gauge} over the incident height", numpy.sqrt((difference**2).mean()) / 0.06,
-                    0.10, "", "6 mm, a quarter of a particle spacing at draft")
-    apart = numpy.linalg.norm(first["blocks /blocks/position"][-1] - second["blocks /blocks/position"][-1], axis=1)
-    check_below("largest distance of a block's final places", apart.max(), 0.001, "m", "an eighth of an element")
+        check_below(f"largest difference of {name}", numpy.abs(first[name] - second[name]).max(), 0, "",
+                    "the same steps, so the same bits")
 
 
 @test

@@ -1,0 +1,86 @@
+#include "cmps/balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cmps/gauges.hpp"
+#include "cmps/scene_geometry.hpp"
+
+namespace cmps {
+
+Balance::Balance(const Scene& scene, const Solid& solid, const NearField& field)
+    : scene_(scene), solid_(solid), initial_fluid_(field.particles.fluid), initial_energy_(energy(field)) {
+    if (scene_.water.empty())
+        initial_volume_ = volume_by_surface(field.particles, solid_, scene_.settings.spacing, scene_.offshore,
+                                            end_of_water(scene_, solid_), lowest_bottom(scene_));
+}
+
+/// Kinetic and potential energy of the water, J per m of width.
+double Balance::energy(const NearField& field) const {
+    const Particles& particles = field.particles;
+    const Settings& settings = scene_.settings;
+    double sum = 0;
+    for (std::size_t i = particles.first_fluid(); i < particles.size(); ++i)
+        sum += 0.5 * (particles.u[i] * particles.u[i] + particles.w[i] * particles.w[i]) -
+               settings.gravity_x * particles.x[i] - settings.gravity_z * particles.z[i];
+    return settings.pressure.density * settings.spacing * settings.spacing * sum;
+}
+
+/// Volume is that of the surface profile, against the particles that are in the water: what compression or
+/// voids have cost.
+void Balance::update(const NearField& field, double wall) {
+    const Particles& particles = field.particles;
+    in_solid_ = 0;
+    for (std::size_t i = particles.first_fluid(); i < particles.size(); ++i)
+        in_solid_ += solid_.contains(particles.x[i], particles.z[i]);
+    // over the potential energy of the water standing at its depth
+    const Settings& settings = scene_.settings;
+    const double scale = 0.5 * settings.pressure.density * 9.81 * settings.depth * settings.spacing *
+                         settings.spacing * static_cast<double>(initial_fluid_);
+    energy_gain_ = (energy(field) - initial_energy_) / scale;
+    largest_energy_gain_ = std::max(largest_energy_gain_, energy_gain_);
+    if (initial_volume_ <= 0) return;
+    const double volume = volume_by_surface(particles, solid_, settings.spacing, wall,
+                                            end_of_water(scene_, solid_), lowest_bottom(scene_));
+    const double expected =
+        initial_volume_ * static_cast<double>(particles.fluid) / static_cast<double>(initial_fluid_);
+    volume_drift_ = volume / expected - 1.0;
+    largest_volume_drift_ = std::max(largest_volume_drift_, std::abs(volume_drift_));
+}
+
+void Balance::describe(common::RunRecord& record, const NearField& field, std::size_t elsewhere) const {
+    const double infinity = std::numeric_limits<double>::infinity();
+    const auto missing =
+        static_cast<double>(initial_fluid_) - static_cast<double>(field.particles.fluid + elsewhere);
+    record.set_invariant({"particle_ledger", missing, "particles", 0.5});
+    if (initial_volume_ > 0) {
+        record.set_invariant({"mass_drift", volume_drift_, "-", 0.02});
+        record.set_invariant({"largest_mass_drift", largest_volume_drift_, "-", infinity});
+    }
+    // nothing does work on the water where no wall moves and gravity is constant
+    const bool is_closed = scene_.drive == Drive::none && scene_.gravity_file.empty();
+    record.set_invariant({"energy_gain", energy_gain_, "of rho g h / 2", is_closed ? 0.02 : infinity});
+    record.set_invariant({"largest_energy_gain", largest_energy_gain_, "of rho g h / 2", infinity});
+    record.set_invariant({"particles_in_solid", static_cast<double>(in_solid_), "particles", 0.5});
+    record.set_invariant(
+        {"unconverged_solves", static_cast<double>(field.counts.unconverged), "-", infinity});
+}
+
+std::vector<double> Balance::state() const {
+    return {static_cast<double>(initial_fluid_),
+            initial_volume_,
+            volume_drift_,
+            largest_volume_drift_,
+            initial_energy_,
+            largest_energy_gain_,
+            energy_gain_};
+}
+
+void Balance::restore(const std::vector<double>& state) {
+    initial_fluid_ = static_cast<std::size_t>(state.at(0));
+    initial_volume_ = state.at(1), volume_drift_ = state.at(2), largest_volume_drift_ = state.at(3);
+    initial_energy_ = state.at(4), largest_energy_gain_ = state.at(5), energy_gain_ = state.at(6);
+}
+
+}  // namespace cmps

@@ -1,0 +1,36 @@
+/// What a run checks about itself: particles, volume, energy, leaks.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "cmps/near_field.hpp"
+#include "cmps/scene.hpp"
+#include "cmps/solid.hpp"
+#include "common/run_record.hpp"
+
+namespace cmps {
+
+class Balance {
+ public:
+    Balance(const Scene& scene, const Solid& solid, const NearField& field);
+
+    /// Takes stock; `wall`: place of the offshore wall, m.
+    void update(const NearField& field, double wall);
+    /// `elsewhere`: fluid particles that have left the water and are known (waiting, overtopped).
+    void describe(common::RunRecord& record, const NearField& field, std::size_t elsewhere) const;
+
+    std::size_t initial_fluid() const { return initial_fluid_; }
+    std::vector<double> state() const;
+    void restore(const std::vector<double>& state);
+
+ private:
+    double energy(const NearField& field) const;
+    const Scene& scene_;
+    const Solid& solid_;
+    std::size_t initial_fluid_ = 0, in_solid_ = 0;
+    double initial_volume_ = 0, volume_drift_ = 0, largest_volume_drift_ = 0;
+    double initial_energy_ = 0, energy_gain_ = 0, largest_energy_gain_ = 0;
+};
+
+}  // namespace cmps
