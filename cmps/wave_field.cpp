@@ -12,7 +12,7 @@ namespace cmps {
 namespace {
 
 constexpr double time_slack = 1e-9;  // s: rounding of window ends
-constexpr std::size_t history = 3;   // samples at or before the present: it and two for its slope
+constexpr std::size_t history = 4;   // samples at or before the present: it and three for its slope
 
 /// First and second derivative at the nodes of a smooth field on an even or uneven grid (three-point
 /// formulas).
@@ -86,7 +86,7 @@ std::size_t WaveField::samples_until(double time) const {
 void WaveField::cover(double t0, double t1) {
     if (samples_.empty()) {
         const auto index = reader_.index_at(t0);
-        // slopes look two samples back: windows before t0 until they are there
+        // slopes look three samples back: windows before t0 until they are there
         for (std::int64_t first = index.value_or(0); first >= 0; --first) {
             next_index_ = first;
             samples_.clear();
@@ -99,6 +99,9 @@ void WaveField::cover(double t0, double t1) {
         if (!receive_next())
             throw common::InputError(
                 fmt::format("the wave windows end at t = {:g} s, but t = {:g} s is needed", last_time_, t1));
+    // at the beginning of the waves slopes need what follows
+    while (samples_.size() < history && receive_next()) {
+    }
     const std::size_t past = samples_until(t0);
     if (past > history)
         samples_.erase(samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(past - history));
@@ -131,13 +134,23 @@ void WaveField::go_to(double time) {
     const double h01 = s * s * (3 - 2 * s), h11 = s * s * (s - 1) * h;
     const auto interpolate = [&](std::vector<double> Sample::*field, std::size_t i) {
         const auto at = [&](std::size_t m) { return (samples_[m].*field)[i]; };
-        // of the parabola through sample m and the two before it
+        // of the cubic through sample m and the three before it, or the first four (divided differences)
         const auto slope = [&](std::size_t m) {
-            if (m == 0) return (at(1) - at(0)) / (samples_[1].time - samples_[0].time);
-            const double last = samples_[m].time - samples_[m - 1].time, rise = (at(m) - at(m - 1)) / last;
-            if (m == 1) return rise;
-            const double before = samples_[m - 1].time - samples_[m - 2].time;
-            return rise + last / (last + before) * (rise - (at(m - 1) - at(m - 2)) / before);
+            const std::size_t points = std::min(count, history);
+            std::size_t at_sample[history] = {m};
+            const std::size_t highest = std::max(m, points - 1);
+            for (std::size_t a = 1, n = highest; a < points; --n)
+                if (n != m) at_sample[a++] = n;
+            double difference[history], sum = 0, factor = 1;
+            for (std::size_t a = 0; a < points; ++a) difference[a] = at(at_sample[a]);
+            for (std::size_t order = 1; order < points; ++order) {
+                for (std::size_t a = 0; a + order < points; ++a)
+                    difference[a] = (difference[a] - difference[a + 1]) /
+                                    (samples_[at_sample[a]].time - samples_[at_sample[a + order]].time);
+                sum += factor * difference[0];
+                factor *= samples_[m].time - samples_[at_sample[order]].time;
+            }
+            return sum;
         };
         return h00 * at(k) + h10 * slope(k) + h01 * at(k + 1) + h11 * slope(k + 1);
     };
