@@ -10,25 +10,16 @@
 
 namespace common {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ChainStage, name, folder, status, message, exit_status, signal, wall_time,
+                                   cpu_time, peak_memory, command)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ChainRecord, status, message, scene, wires, overrides, end, window,
+                                   wall_time, stages)
 
 void write_chain_record(const std::filesystem::path& folder, const ChainRecord& record) {
-    Json stages = Json::array();
-    for (const auto& stage : record.stages)
-        stages.push_back({{"name", stage.name},
-                          {"folder", stage.folder},
-                          {"status", stage.status},
-                          {"message", stage.message},
-                          {"exit_status", stage.exit_status},
-                          {"signal", stage.signal},
-                          {"wall_time", stage.wall_time},
-                          {"cpu_time", stage.cpu_time},
-                          {"peak_memory", stage.peak_memory},
-                          {"command", stage.command}});
-    const Json chain = {
-        {"schema", "tsunagi.chain/1"},   {"status", record.status},       {"message", record.message},
-        {"version", TSUNAGI_VERSION},    {"scene", record.scene},         {"wires", record.wires},
-        {"overrides", record.overrides}, {"wall_time", record.wall_time}, {"stages", stages}};
+    Json chain = {{"schema", "tsunagi.chain/1"}, {"version", TSUNAGI_VERSION}};
+    chain.update(Json(record));
     write_text_file(folder / "chain.json", chain.dump(1) + "\n");
 }
 
@@ -38,28 +29,9 @@ ChainRecord read_chain_record(const std::filesystem::path& folder) {
     if (!stream)
         throw InputError(fmt::format("{}: no such file (expected the folder of a chain)", path.string()));
     try {
-        const Json chain = Json::parse(stream);
-        ChainRecord record{.status = chain.at("status"),
-                           .message = chain.at("message"),
-                           .scene = chain.at("scene"),
-                           .wires = chain.at("wires"),
-                           .overrides = chain.at("overrides"),
-                           .wall_time = chain.at("wall_time"),
-                           .stages = {}};
-        for (const auto& stage : chain.at("stages"))
-            record.stages.push_back({.name = stage.at("name"),
-                                     .folder = stage.at("folder"),
-                                     .command = stage.at("command"),
-                                     .status = stage.at("status"),
-                                     .message = stage.at("message"),
-                                     .exit_status = stage.at("exit_status"),
-                                     .signal = stage.at("signal"),
-                                     .wall_time = stage.at("wall_time"),
-                                     .cpu_time = stage.at("cpu_time"),
-                                     .peak_memory = stage.at("peak_memory")});
-        return record;
-    } catch (const Json::exception& error) {
-        throw InputError(fmt::format("{}: not a chain record: {}", path.string(), error.what()));
+        return Json::parse(stream).get<ChainRecord>();
+    } catch (const Json::exception&) {
+        throw InputError(fmt::format("{}: damaged, or not written by coupler", path.string()));
     }
 }
 

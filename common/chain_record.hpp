@@ -29,6 +29,8 @@ struct ChainRecord {
     std::string message;
     std::string scene, wires;  ///< files, absolute; `wires` empty without a layout
     std::vector<std::string> overrides;
+    double end = 0;        ///< of the scene's time, s
+    double window = 0;     ///< length of the scene's windows, s
     double wall_time = 0;  ///< s
     std::vector<ChainStage> stages;
 };

@@ -2,10 +2,12 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <new>
+#include <string_view>
 
 namespace common {
 
@@ -16,12 +18,25 @@ extern "C" void raise_interrupt(int) {
 }
 }  // namespace
 
+namespace {
+
+/// A line each, all with the program's name, so that a log of several programs stays readable.
+void print_lines(const std::string& program, std::string_view message) {
+    while (!message.empty()) {
+        const auto end = std::min(message.find('\n'), message.size());
+        fmt::print(stderr, "{}: {}\n", program, message.substr(0, end));
+        message.remove_prefix(std::min(end + 1, message.size()));
+    }
+}
+
+}  // namespace
+
 int run_guarded(const std::string& program, const std::function<int()>& body) {
     watch_for_interrupts();
     try {
         return body();
     } catch (const InputError& error) {
-        fmt::print(stderr, "{}: {}\n", program, error.what());
+        print_lines(program, error.what());
         return exit_bad_input;
     } catch (const Interrupted&) {
         fmt::print(stderr, "{}: interrupted; finished windows are kept, --resume goes on from them\n",
@@ -31,7 +46,7 @@ int run_guarded(const std::string& program, const std::function<int()>& body) {
         fmt::print(stderr, "{}: out of memory\n", program);
         return exit_failed;
     } catch (const std::exception& error) {
-        fmt::print(stderr, "{}: {}\n", program, error.what());
+        print_lines(program, error.what());
         return exit_failed;
     }
 }

@@ -33,4 +33,12 @@ FolderLock::~FolderLock() {
     ::close(descriptor_);
 }
 
+bool is_locked(const fs::path& folder) {
+    const int descriptor = ::open((folder / ".lock").c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) return false;
+    const bool is_free = ::flock(descriptor, LOCK_SH | LOCK_NB) == 0;
+    ::close(descriptor);
+    return !is_free;
+}
+
 }  // namespace common

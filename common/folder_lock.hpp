@@ -20,4 +20,7 @@ class FolderLock {
     int descriptor_;
 };
 
+/// True while a living process holds the lock of the folder.
+bool is_locked(const std::filesystem::path& folder);
+
 }  // namespace common

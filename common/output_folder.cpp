@@ -47,6 +47,26 @@ bool is_finished(const fs::path& folder, const RunIdentity& identity) {
     return true;
 }
 
+bool belongs_to(const DataFile& state, const RunIdentity& identity) {
+    return state.text("stage") == identity.stage && state.text("scene_digest") == identity.scene_digest &&
+           state.text("input_digest") == identity.input_digest;
+}
+
+/// A run that starts anew where windows of an earlier one stand says so.
+void say_what_is_replaced(const fs::path& folder, const RunIdentity& identity) {
+    const auto earlier = read_upstream_status(folder);
+    if (earlier.windows == 0) return;
+    bool could_go_on = false;
+    try {
+        could_go_on = belongs_to(read_data_file(folder / "state.h5"), identity);
+    } catch (const InputError&) {
+        // without a state that can be read, the earlier run could not have been gone on with
+    }
+    fmt::print(stderr, "{}: {}: the {} windows of an earlier run are replaced{}\n", identity.stage,
+               folder.string(), earlier.windows,
+               could_go_on ? "; --resume would have gone on from them" : "");
+}
+
 }  // namespace
 
 OutputFolder::OutputFolder(fs::path folder, RunIdentity identity, bool resume)
@@ -64,8 +84,7 @@ OutputFolder::OutputFolder(fs::path folder, RunIdentity identity, bool resume)
     const fs::path state = folder_ / "state.h5";
     if (resume && fs::exists(state)) {
         DataFile saved = read_data_file(state);
-        if (saved.text("stage") != identity_.stage || saved.text("scene_digest") != identity_.scene_digest ||
-            saved.text("input_digest") != identity_.input_digest)
+        if (!belongs_to(saved, identity_))
             throw InputError(fmt::format(
                 "{}: belongs to another scene or input; run without --resume to start anew", state.string()));
         next_window_ = saved.integer("next_window");
@@ -75,6 +94,7 @@ OutputFolder::OutputFolder(fs::path folder, RunIdentity identity, bool resume)
         state_ = std::move(saved);
         return;
     }
+    say_what_is_replaced(folder_, identity_);
     remove_files(folder_, is_ours);
 }
 

@@ -45,8 +45,8 @@ std::optional<RunSummary> read_run_summary(const std::filesystem::path& folder) 
                  .unit = entry.at("unit"),
                  .bound = number_or(entry.at("bound"), std::numeric_limits<double>::infinity())});
         return summary;
-    } catch (const Json::exception& error) {
-        throw InputError(fmt::format("{}: not a run record: {}", path.string(), error.what()));
+    } catch (const Json::exception&) {
+        throw InputError(fmt::format("{}: damaged, or not the record of a run", path.string()));
     }
 }
 

@@ -71,6 +71,7 @@ class Chain {
     void poll();
     RunningStage* find_failed();
     void note_ending(RunningStage& stage);
+    void keep_cost_of_earlier_run(common::ChainStage& stage) const;
     bool is_over() const;
     void end_all(int signal);
     int fail(const RunningStage& cause);
@@ -81,6 +82,7 @@ class Chain {
 
     const Command& command_;
     common::ChainRecord record_;
+    std::vector<common::ChainStage> earlier_stages_;  // as an earlier chain in this folder left them
     std::list<RunningStage> stages_;
     Board board_;
     Clock::time_point begun_ = Clock::now(), last_look_ = begun_;
@@ -91,6 +93,10 @@ Chain::Chain(const Command& command, const std::vector<StagePlace>& places, comm
     record_.scene = fs::absolute(command.scene).string();
     if (!command.wires.empty()) record_.wires = fs::absolute(command.wires).string();
     record_.overrides = command.overrides;
+    record_.end = time.end;
+    record_.window = time.window;
+    if (fs::exists(command.folder / "chain.json"))
+        earlier_stages_ = common::read_chain_record(command.folder).stages;
     record_.stages.resize(places.size());  // not resized again: stages_ refers into it
     const fs::path programs = program_folder();
     fs::path upstream;
@@ -187,8 +193,11 @@ void Chain::note_ending(RunningStage& stage) {
     stage.record.wall_time = ending.wall_seconds;
     stage.record.cpu_time = ending.cpu_seconds;
     stage.record.peak_memory = ending.peak_memory;
-    if (ending.is_done())
-        stage.record.status = stage.shows_itself() ? "done" : "unchanged";
+    if (ending.is_done() && !stage.shows_itself()) {
+        stage.record.status = "unchanged";
+        keep_cost_of_earlier_run(stage.record);
+    } else if (ending.is_done())
+        stage.record.status = "done";
     else
         stage.record.status = stage.was_told_to_stop ? "stopped" : "failed";
     const std::string prefix = stage.place.name + ": ";
@@ -197,6 +206,16 @@ void Chain::note_ending(RunningStage& stage) {
                                    ? stage.last_message.substr(prefix.size())
                                    : stage.last_message;
     write_record("running");
+}
+
+/// What the windows of an unchanged stage cost is what the run cost that made them.
+void Chain::keep_cost_of_earlier_run(common::ChainStage& stage) const {
+    for (const auto& earlier : earlier_stages_)
+        if (earlier.name == stage.name && (earlier.status == "done" || earlier.status == "unchanged")) {
+            stage.wall_time = earlier.wall_time;
+            stage.cpu_time = earlier.cpu_time;
+            stage.peak_memory = earlier.peak_memory;
+        }
 }
 
 RunningStage* Chain::find_failed() {
@@ -298,28 +317,6 @@ int run_chain(const Command& command) {
     const auto time = common::read_time(common::SceneFile::read(command.scene, command.overrides));
     const common::FolderLock lock(command.folder, "chain");
     return Chain(command, stages, time).run();
-}
-
-int show_status(const fs::path& folder) {
-    const auto record = common::read_chain_record(folder);
-    fmt::print("{}: {}{}{}, {:.1f} s\n", folder.string(), record.status, record.message.empty() ? "" : ": ",
-               record.message, record.wall_time);
-    fmt::print("scene {}{}{}\n", record.scene, record.wires.empty() ? "" : ", layout ", record.wires);
-    const auto time = common::read_time(common::SceneFile::read(record.scene, record.overrides));
-    for (const auto& stage : record.stages) {
-        StageProgress progress(stage.name, folder / stage.folder, time);
-        progress.look();
-        const auto& summary = progress.summary();
-        fmt::print("{:<10}  {:<11}  {}\n", stage.name, stage.status, progress.describe());
-        if (!summary) continue;
-        fmt::print("            {} windows, {:.1f} s, {:.1f} s of processor time, {}\n", summary->windows,
-                   summary->wall_time, summary->cpu_time, memory_text(summary->peak_memory));
-        for (const auto& invariant : summary->invariants)
-            fmt::print(
-                "            {} {:.3g} {}{}\n", invariant.name, invariant.value, invariant.unit,
-                common::holds(invariant) ? "" : fmt::format(", out of its bound {:.3g}", invariant.bound));
-    }
-    return common::exit_done;
 }
 
 }  // namespace coupler

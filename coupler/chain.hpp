@@ -13,7 +13,4 @@ namespace coupler {
 /// in use).
 int run_chain(const Command& command);
 
-/// Prints how the stages of the chain in `folder` stand. Throws InputError when there is none.
-int show_status(const std::filesystem::path& folder);
-
 }  // namespace coupler

@@ -2,6 +2,7 @@
 #include "common/errors.hpp"
 #include "coupler/chain.hpp"
 #include "coupler/command_line.hpp"
+#include "coupler/status.hpp"
 #include "coupler/verify.hpp"
 
 int main(int argc, char** argv) {

@@ -144,6 +144,21 @@ def stages_do_not_outlive_a_killed_coupler(folder):
     chain.kill()
     end_of(chain)
     wait_for(lambda: not process_ids(folder), 10, "the stages to end")
+    (folder / "scene.toml").unlink()
+    status = subprocess.run([folder / "programs/coupler", "status", folder / "chain"], text=True, capture_output=True)
+    check(status.returncode == 0 and status.stdout.splitlines()[0].count("died") == 1, status.stdout + status.stderr)
+    check(status.stdout.count("died") == 4, f"not all stages are called dead: {status.stdout}")
+
+
+@test
+def an_unchanged_stage_keeps_the_cost_of_the_run_that_made_its_windows(folder):
+    programs = stand_ins(folder, boussinesq="sleep 0.3; exit 0")
+    end_of(start_chain(folder, programs))
+    cost = record(folder)["stages"][0]["wall_time"]
+    (programs / "boussinesq").write_text("#!/bin/sh\nexit 0\n")  # finished before: leaves run.json as it is
+    end_of(start_chain(folder, programs))
+    check(statuses(folder)[0] == "unchanged", statuses(folder))
+    check(record(folder)["stages"][0]["wall_time"] == cost, record(folder)["stages"][0])
 
 
 @test
