@@ -8,6 +8,7 @@
 
 #include "boussinesq/build_simulation.hpp"
 #include "boussinesq/waves/wave_theory.hpp"
+#include "common/check_report.hpp"
 
 namespace boussinesq {
 
@@ -86,18 +87,18 @@ void print_check(const common::SceneFile& file, const Scene& scene, bool all) {
         fmt::print("{}", file.reference());
         return;
     }
-    fmt::print("effects\n");
-    for (const auto& effect : scene.effects)
-        fmt::print("  {:<12} {:<4} {}\n", effect.name, effect.is_on ? "on" : "off", effect.reason);
     const Forecast expected = forecast(scene);
-    fmt::print(
-        "forecast\n  cells        {} of {:.4g} m\n  steps        about {:.0f}\n  run time     about {:.2g} s "
-        "on this machine ({:.0f} ns per cell and step)\n  memory       about {:.0f} MB\n",
-        scene.grid.cells, scene.grid.spacing, expected.steps, expected.seconds,
-        expected.nanoseconds_per_cell_step, 1e-6 * expected.memory);
+    std::vector<common::ForecastLine> lines{
+        {"cells", fmt::format("{} of {:.4g} m", scene.grid.cells, scene.grid.spacing)},
+        {"steps", fmt::format("about {:.0f}", expected.steps)},
+        {"run time",
+         fmt::format("about {} on this machine ({:.0f} ns per cell and step)",
+                     common::run_time_text(expected.seconds), expected.nanoseconds_per_cell_step)},
+        {"memory", fmt::format("about {:.0f} MB", 1e-6 * expected.memory)}};
     if (expected.relative_error > 0)
-        fmt::print("  error        about {:.1g} of the wave height ({})\n", expected.relative_error,
-                   expected.error_from);
+        lines.push_back({"error", fmt::format("about {:.1g} of the wave height ({})", expected.relative_error,
+                                              expected.error_from)});
+    common::print_check_report(scene.effects, lines);
 }
 
 }  // namespace boussinesq

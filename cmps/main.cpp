@@ -8,6 +8,7 @@
 #include "cmps/forecast.hpp"
 #include "cmps/scene.hpp"
 #include "cmps/simulation.hpp"
+#include "common/check_report.hpp"
 #include "common/errors.hpp"
 #include "common/output_folder.hpp"
 #include "common/parallel.hpp"
@@ -51,10 +52,6 @@ int check(const common::StageCommand& command, const common::SceneFile& file, co
         std::cout << file.reference();
         return common::exit_done;
     }
-    std::cout << "effects:\n";
-    for (const auto& effect : scene.effects)
-        std::cout << fmt::format("  {:<18} {:<4} {}\n", effect.name, effect.is_on ? "on" : "off",
-                                 effect.reason);
     double start = -1;
     if (!command.upstream.empty() && scene.drive == cmps::Drive::waves) {
         common::WindowReader reader(command.upstream, "boussinesq", wave_datasets, false);
@@ -62,16 +59,17 @@ int check(const common::StageCommand& command, const common::SceneFile& file, co
         start = start_time(scene, &waves);
     }
     const cmps::Forecast forecast = cmps::make_forecast(scene, start);
-    std::cout << fmt::format(
-        "forecast (one thread of this machine):\n"
-        "  particles          {} in the water, {} in walls; spacing {:.4g} m\n"
-        "  time               from {}{:.1f} s to {:g} s, {:.0f} steps of about {:.2g} s\n"
-        "  run time           about {:.3g} s, {:.0f} MB\n"
-        "  expected error     {}\n",
-        forecast.fluid, forecast.boundary, scene.settings.spacing,
-        start < 0 && !scene.start && forecast.start > 0 ? "about " : "", forecast.start, scene.time.end,
-        forecast.steps, forecast.step, forecast.seconds, forecast.memory / 1e6,
-        expected_error(scene.settings.depth / scene.settings.spacing));
+    const bool start_is_guess = start < 0 && !scene.start && forecast.start > 0;
+    common::print_check_report(
+        scene.effects, {{"particles", fmt::format("{} in the water, {} in walls; spacing {:.4g} m",
+                                                  forecast.fluid, forecast.boundary, scene.settings.spacing)},
+                        {"time", fmt::format("from {}{:.1f} s to {:g} s", start_is_guess ? "about " : "",
+                                             forecast.start, scene.time.end)},
+                        {"steps", fmt::format("about {:.0f} of {:.2g} s", forecast.steps, forecast.step)},
+                        {"run time", fmt::format("about {} on this machine, one thread",
+                                                 common::run_time_text(forecast.seconds))},
+                        {"memory", fmt::format("about {:.0f} MB", forecast.memory / 1e6)},
+                        {"error", expected_error(scene.settings.depth / scene.settings.spacing)}});
     return common::exit_done;
 }
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "common/check_report.hpp"
 #include "dem/build_simulation.hpp"
 #include "dem/run.hpp"
 
@@ -44,22 +45,22 @@ void check(const common::StageCommand& command, const common::SceneFile& file, c
         spheres += scene.placed.shape_of(i).spheres.size();
         moving += !scene.placed.is_fixed[i];
     }
-    fmt::print("blocks: {} ({} free to move, {} spheres), fixed spheres: {}, planes: {}, links: {}\n",
-               scene.placed.size(), moving, spheres, scene.surroundings.fixed_spheres.size(),
-               scene.surroundings.planes.size(), scene.wires.links.size());
-    for (const auto& effect : scene.effects.records)
-        fmt::print("effect {}: {} ({})\n", effect.name, effect.is_on ? "on" : "off", effect.reason);
     const double steps = std::ceil(scene.time.end / scene.step.time_step);
-    fmt::print("time step: {} s ({}), steps: at most {}\n", scene.step.time_step,
-               scene.time_step_is_chosen ? "chosen" : "given", steps);
     const double each = seconds_per_step(scene);
-    fmt::print(
-        "forecast: {:.3g} ms a step with all blocks awake, {:.3g} s for all of {} s (the flow may start "
-        "later; sleeping saves more)\n",
-        1e3 * each, each * steps, scene.time.end);
-    fmt::print(
-        "expected error: energy balance about {:.1g} of what contacts dissipate (first order in the step)\n",
-        0.01 * scene.step.time_step / 1e-4 * std::sqrt(scene.material.young_modulus / 1e7));
+    common::print_check_report(
+        scene.effects.records,
+        {{"blocks", fmt::format("{}, {} free to move; {} spheres", scene.placed.size(), moving, spheres)},
+         {"fixed", fmt::format("{} spheres, {} planes", scene.surroundings.fixed_spheres.size(),
+                               scene.surroundings.planes.size())},
+         {"links", fmt::format("{}", scene.wires.links.size())},
+         {"steps", fmt::format("at most {:.0f} of {:.3g} s ({}); the flow may start later", steps,
+                               scene.step.time_step, scene.time_step_is_chosen ? "chosen" : "given")},
+         {"run time", fmt::format("at most about {} on this machine ({:.3g} ms a step with all blocks awake; "
+                                  "sleeping saves more)",
+                                  common::run_time_text(each * steps), 1e3 * each)},
+         {"error",
+          fmt::format("energy balance about {:.1g} of what contacts dissipate (first order in the step)",
+                      0.01 * scene.step.time_step / 1e-4 * std::sqrt(scene.material.young_modulus / 1e7))}});
 }
 
 }  // namespace dem
