@@ -42,10 +42,7 @@ void decide_effects(const common::SceneFile& file, Scene& scene) {
            fmt::format("boundary layer of one second {:.2g} m, particle spacing {:.2g} m", layer,
                        scene.settings.spacing));
 
-    const double height =
-        is_wave_driven && file.has_section("waves") && file.foreign_section("waves").is_number("height")
-            ? file.foreign_section("waves").number("height", "m", "wave height", common::Range::any(), 0.0)
-            : 0.0;
+    const double height = scene.wave_height;
     // in front of a reflecting structure waves stand twice as high as they came
     const double steepness = (scene.structure.empty() ? 1.0 : 2.0) * height / scene.settings.depth;
     decide("turbulence", steepness > 0.8,

@@ -60,14 +60,31 @@ FlowGrid::FlowGrid(const FlowGridSettings& settings, const Solid& solid, double 
             source_[node] = static_cast<std::int32_t>(node);
             if (!is_solid[node]) continue;
             source_[node] = -1;
-            double least = std::numeric_limits<double>::infinity();
-            for (std::size_t kk = 0; kk < z.size(); ++kk)
-                for (std::size_t ii = 0; ii < x.size(); ++ii) {
-                    const double d = std::hypot(x[ii] - x[i], z[kk] - z[k]);
-                    if (!is_solid[kk * x.size() + ii] && d < least)
-                        least = d, source_[node] = static_cast<std::int32_t>(kk * x.size() + ii);
-                }
+            source_[node] = nearest_free(is_solid, i, k);
         }
+}
+
+/// The nearest node outside the solid, ring after ring; -1 when all is solid.
+std::int32_t FlowGrid::nearest_free(const std::vector<char>& is_solid, std::size_t i, std::size_t k) const {
+    const auto columns = static_cast<std::ptrdiff_t>(x.size()), rows = static_cast<std::ptrdiff_t>(z.size());
+    const auto at_i = static_cast<std::ptrdiff_t>(i), at_k = static_cast<std::ptrdiff_t>(k);
+    const double dx = columns > 1 ? x[1] - x[0] : 1.0, dz = rows > 1 ? z[1] - z[0] : 1.0;
+    double least = std::numeric_limits<double>::infinity();
+    std::int32_t nearest = -1;
+    for (std::ptrdiff_t ring = 1; ring < std::max(columns, rows); ++ring) {
+        if (static_cast<double>(ring) * std::min(dx, dz) > least) break;  // no nearer one can follow
+        for (std::ptrdiff_t kk = std::max<std::ptrdiff_t>(0, at_k - ring);
+             kk <= std::min(rows - 1, at_k + ring); ++kk) {
+            const bool is_edge = std::abs(kk - at_k) == ring;
+            for (std::ptrdiff_t ii = at_i - ring; ii <= at_i + ring; ii += is_edge ? 1 : 2 * ring) {
+                if (ii < 0 || ii >= columns || is_solid[kk * columns + ii]) continue;
+                const double d =
+                    std::hypot(static_cast<double>(ii - at_i) * dx, static_cast<double>(kk - at_k) * dz);
+                if (d < least) least = d, nearest = static_cast<std::int32_t>(kk * columns + ii);
+            }
+        }
+    }
+    return nearest;
 }
 
 void FlowGrid::evaluate(const Particles& particles) {

@@ -31,7 +31,7 @@ class FlowGrid {
     std::vector<float> wet;           ///< (nz, nx)
 
  private:
-    struct Sums;
+    std::int32_t nearest_free(const std::vector<char>& is_solid, std::size_t i, std::size_t k) const;
     double particle_spacing_, reach_, full_weight_;
     std::vector<std::int32_t> source_;  ///< node to copy from; itself outside the solid, -1: nothing near
     std::vector<double> sums_;

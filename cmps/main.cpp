@@ -7,6 +7,7 @@
 #include "cmps/effect_rules.hpp"
 #include "cmps/forecast.hpp"
 #include "cmps/scene.hpp"
+#include "cmps/scene_geometry.hpp"
 #include "cmps/simulation.hpp"
 #include "common/check_report.hpp"
 #include "common/errors.hpp"
@@ -47,6 +48,30 @@ std::string expected_error(double particles_over_depth) {
                        100 / particles_over_depth / particles_over_depth, 40 / particles_over_depth);
 }
 
+/// The waves that drive a run, opened and judged.
+struct Upstream {
+    common::WindowReader reader;
+    cmps::WaveField waves;
+
+    Upstream(const common::StageCommand& command, const cmps::Scene& scene)
+        : reader(command.upstream, "boussinesq", wave_datasets, command.follow),
+          waves(
+              reader, scene.offshore - 0.5,
+              scene.offshore + 0.5 + (scene.has_effect("relaxation_zone") ? scene.relaxation_length : 0.0)) {
+        waves.check_depth([&](double x) { return -cmps::bottom_level(scene, x); });
+        if (!command.follow && reader.available_until() < scene.time.end - 1e-9)
+            throw common::InputError(
+                fmt::format("{}: the wave windows end at t = {:g} s, before time.end = {:g} s",
+                            command.upstream.string(), reader.available_until(), scene.time.end));
+    }
+};
+
+void check_start(double start, const cmps::Scene& scene) {
+    if (start >= scene.time.end)
+        throw common::InputError(fmt::format(
+            "time.end = {:g} s lies before the near field starts, t = {:g} s", scene.time.end, start));
+}
+
 int check(const common::StageCommand& command, const common::SceneFile& file, const cmps::Scene& scene) {
     if (command.all) {
         std::cout << file.reference();
@@ -54,9 +79,9 @@ int check(const common::StageCommand& command, const common::SceneFile& file, co
     }
     double start = -1;
     if (!command.upstream.empty() && scene.drive == cmps::Drive::waves) {
-        common::WindowReader reader(command.upstream, "boussinesq", wave_datasets, false);
-        cmps::WaveField waves(reader, scene.offshore - 0.5, scene.offshore + 0.5);
-        start = start_time(scene, &waves);
+        Upstream upstream(command, scene);
+        start = start_time(scene, &upstream.waves);
+        check_start(start, scene);
     }
     const cmps::Forecast forecast = cmps::make_forecast(scene, start);
     const bool start_is_guess = start < 0 && !scene.start && forecast.start > 0;
@@ -74,36 +99,31 @@ int check(const common::StageCommand& command, const common::SceneFile& file, co
 }
 
 int run(const common::StageCommand& command, const common::SceneFile& file, const cmps::Scene& scene) {
-    std::optional<common::WindowReader> reader;
-    std::optional<cmps::WaveField> waves;
-    std::string upstream;
+    std::optional<Upstream> upstream;
+    std::string upstream_digest;
     if (scene.drive == cmps::Drive::waves) {
         if (command.upstream.empty())
             throw common::InputError("cmps run: --waves DIR is needed, for cmps.drive = \"waves\"");
-        reader.emplace(command.upstream, "boussinesq", wave_datasets, command.follow);
-        upstream = reader->first().scene_digest;
-        const double reach = scene.boundary == cmps::Boundary::paper ? 0.5 : scene.relaxation_length + 0.5;
-        waves.emplace(*reader, scene.offshore - 0.5, scene.offshore + reach);
-        if (!command.follow && reader->available_until() < scene.time.end - 1e-9)
-            throw common::InputError(
-                fmt::format("{}: the wave windows end at t = {:g} s, before time.end = {:g} s",
-                            command.upstream.string(), reader->available_until(), scene.time.end));
+        upstream.emplace(command, scene);
+        upstream_digest = upstream->reader.first().scene_digest;
     }
-    common::OutputFolder folder(command.out, {"cmps", file.digest(upstream), upstream}, command.resume);
+    cmps::WaveField* const waves = upstream ? &upstream->waves : nullptr;
+    // whatever can be wrong is found before an earlier run's windows make room; waves that are still being
+    // made cannot be judged yet
+    if (!command.follow) check_start(start_time(scene, waves), scene);
+    common::OutputFolder folder(command.out, {"cmps", file.digest(upstream_digest), upstream_digest},
+                                command.resume);
     if (folder.start() == common::OutputFolder::Start::nothing_to_do) return common::exit_done;
     const bool goes_on = folder.start() == common::OutputFolder::Start::go_on;
-    const double start =
-        goes_on ? folder.state().at("/run").doubles()[0] : start_time(scene, waves ? &*waves : nullptr);
-    if (start >= scene.time.end)
-        throw common::InputError(fmt::format(
-            "time.end = {:g} s lies before the near field starts, t = {:g} s", scene.time.end, start));
+    const double start = goes_on ? folder.state().at("/run").doubles()[0] : start_time(scene, waves);
+    check_start(start, scene);
     if (waves) waves->cover(start, start);
 
     common::RunRecord record(command.out, "cmps");
     record.describe_scene(file);
-    record.set_digests(file.digest(upstream), upstream);
+    record.set_digests(file.digest(upstream_digest), upstream_digest);
     record.set_effects(scene.effects);
-    cmps::Simulation simulation(scene, waves ? &*waves : nullptr, start);
+    cmps::Simulation simulation(scene, waves, start);
     if (goes_on)
         simulation.restore(folder.state());
     else

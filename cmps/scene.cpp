@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "cmps/scene_geometry.hpp"
+#include "cmps/time_table.hpp"
+#include "common/errors.hpp"
 
 namespace cmps {
 namespace {
@@ -13,6 +15,10 @@ namespace {
 using common::EffectWish;
 using common::Range;
 using common::Section;
+
+constexpr double most_particles = 2e7;      // at about 1.5 kB each
+constexpr double most_gauge_samples = 1e6;  // of one gauge in one window
+constexpr double most_window_values = 5e8;  // of one dataset in one window, 2 GB
 
 template <class Value>
 Value chosen(const Section& section, const char* key, const char* about,
@@ -54,6 +60,47 @@ int particles_over_depth(common::Accuracy accuracy) {
     return 30;
 }
 
+/// Smallest box around a polygon: x0, x1, z0, z1.
+std::array<double, 4> extent(const Polygon& polygon) {
+    std::array<double, 4> box = {1e300, -1e300, 1e300, -1e300};
+    for (const Point& p : polygon) {
+        box[0] = std::min(box[0], p[0]), box[1] = std::max(box[1], p[0]);
+        box[2] = std::min(box[2], p[1]), box[3] = std::max(box[3], p[1]);
+    }
+    return box;
+}
+
+/// A structure that no water can touch and water outside the walls are mistakes of the scene.
+void check_places(const Section& section, const Scene& scene) {
+    const double slack = 1e-9;  // m
+    for (std::size_t k = 0; k < scene.structure.size(); ++k) {
+        const auto [x0, x1, z0, z1] = extent(scene.structure[k]);
+        if (x1 <= scene.offshore + slack || x0 >= scene.onshore - slack)
+            section.problem("structure",
+                            fmt::format("polygon {} (x = {:g} to {:g} m) lies outside the near field, x = "
+                                        "{:g} to {:g} m",
+                                        k + 1, x0, x1, scene.offshore, scene.onshore));
+        else if (!scene.tank && z1 <= std::min(bottom_level(scene, x0), bottom_level(scene, x1)) - slack)
+            section.problem("structure", fmt::format("polygon {} lies wholly under the bed", k + 1));
+    }
+    for (std::size_t k = 0; k < scene.water.size(); ++k) {
+        const auto [x0, x1, z0, z1] = extent(scene.water[k]);
+        const std::string where =
+            fmt::format("polygon {} (x = {:g} to {:g}, z = {:g} to {:g} m)", k + 1, x0, x1, z0, z1);
+        if (scene.tank && (x0 < (*scene.tank)[0] - slack || x1 > (*scene.tank)[1] + slack ||
+                           z0 < (*scene.tank)[2] - slack || z1 > (*scene.tank)[3] + slack))
+            section.problem("water", where + " leaves the tank");
+        if (!scene.tank && (x0 < scene.offshore - slack || x1 > scene.onshore + slack))
+            section.problem("water", fmt::format("{} leaves the near field, x = {:g} to {:g} m", where,
+                                                 scene.offshore, scene.onshore));
+        for (std::size_t m = 0; m < k; ++m)
+            if (overlap(scene.water[m], scene.water[k]))
+                section.problem("water", fmt::format("polygons {} and {} overlap: their water would stand "
+                                                     "in one place twice",
+                                                     m + 1, k + 1));
+    }
+}
+
 void read_geometry(const common::SceneFile& file, const Section& section, Scene& scene) {
     if (section.has("tank")) {
         const auto box =
@@ -82,6 +129,7 @@ void read_geometry(const common::SceneFile& file, const Section& section, Scene&
     if (!scene.tank && !scene.bed.empty() && (scene.offshore < x0 || scene.onshore > x1))
         section.problem(scene.offshore < x0 ? "offshore" : "onshore",
                         fmt::format("lies outside the flume's bed, x = {:g} to {:g} m", x0, x1));
+    if (scene.onshore > scene.offshore && (scene.tank || !scene.bed.empty())) check_places(section, scene);
 }
 
 void read_numerics(const common::SceneFile& file, const Section& section, Scene& scene, double depth) {
@@ -97,6 +145,16 @@ void read_numerics(const common::SceneFile& file, const Section& section, Scene&
             fmt::format(
                 "{:g} m is too coarse: the water is {:g} m deep, at least three particles must stand in it",
                 settings.spacing, depth));
+    double area = depth * (scene.onshore - scene.offshore);
+    if (!scene.water.empty()) {
+        area = 0;
+        for (const Polygon& polygon : scene.water) area += std::abs(signed_area(polygon));
+    }
+    const double particles = area / (settings.spacing * settings.spacing);
+    if (particles > most_particles)
+        section.problem("particle_spacing", fmt::format("{:g} m makes about {:.1e} particles; at most {:.0e} "
+                                                        "fit into the memory of a machine",
+                                                        settings.spacing, particles, most_particles));
     settings.depth = depth;
     settings.kernel = chosen<KernelKind>(
         section, "kernel", "weight function",
@@ -148,6 +206,45 @@ void read_numerics(const common::SceneFile& file, const Section& section, Scene&
     settings.gravity_x = gravity[0], settings.gravity_z = gravity[1];
 }
 
+/// A table that cannot be read is found before anything runs.
+void check_table(const Section& section, const char* key, const std::filesystem::path& path, int columns) {
+    if (path.empty()) return;
+    try {
+        TimeTable(path, columns);
+    } catch (const common::InputError& error) {
+        section.problem(key, error.what());
+    }
+}
+
+/// Airy's phase speed, m/s, by Newton's method on omega^2 = g k tanh(k h).
+double phase_speed(double period, double depth) {
+    constexpr double gravity = 9.81, two_pi = 6.283185307179586;
+    const double omega = two_pi / period;
+    double k = omega / std::sqrt(gravity * depth) + omega * omega / gravity;  // above the root
+    for (int i = 0; i < 50; ++i) {
+        const double t = std::tanh(k * depth);
+        k -= (gravity * k * t - omega * omega) / (gravity * t + gravity * k * depth * (1 - t * t));
+    }
+    return omega / k;
+}
+
+/// What [waves] says of the waves that arrive in windows: rules and the boundary need their height and
+/// period.
+void read_waves(const common::SceneFile& file, Scene& scene, double depth) {
+    scene.celerity = std::sqrt(9.81 * depth);
+    if (scene.drive != Drive::waves || !file.has_section("waves")) return;
+    const Section waves = file.foreign_section("waves");
+    const std::string kind =
+        waves.choice("kind", "what comes in from offshore",
+                     {"regular", "solitary", "jonswap", "bretschneider", "series", "none"},
+                     file.has_section("initial") ? std::optional<std::string>("none") : std::nullopt);
+    if (kind == "series" || kind == "none") return;
+    scene.wave_height = waves.number("height", "m", "wave height", Range::positive());
+    if (kind == "solitary") return;
+    const double period = waves.number("period", "s", "wave period", Range::positive());
+    scene.celerity = phase_speed(period, depth);
+}
+
 void read_drive(const Section& section, Scene& scene, double depth) {
     scene.drive = chosen<Drive>(
         section, "drive", "what moves the offshore wall: windows of boussinesq, a piston's path, nothing",
@@ -156,6 +253,8 @@ void read_drive(const Section& section, Scene& scene, double depth) {
     scene.piston_file =
         section.file("piston_file", "CSV: t, displacement of the wall", scene.drive == Drive::piston);
     scene.gravity_file = section.file("gravity_file", "CSV: t, gx, gz", false);
+    check_table(section, "piston_file", scene.piston_file, 2);
+    check_table(section, "gravity_file", scene.gravity_file, 3);
     scene.boundary = chosen<Boundary>(
         section, "boundary", "offshore: relaxation zone, the paper's overflowing wall, or both",
         {{"relaxation", Boundary::relaxation}, {"paper", Boundary::paper}, {"both", Boundary::both}},
@@ -167,6 +266,8 @@ void read_drive(const Section& section, Scene& scene, double depth) {
                                              Range::positive(), 3.0 * depth);
     scene.relaxation_strength =
         section.number("relaxation_strength", "1/s", "at the wall", Range::positive(), 8.0);
+    scene.absorption = section.number("absorption", "-", "share of what comes back that the wall takes in",
+                                      Range::between(0, 1), 0.0);
     scene.return_time = section.number("return_time", "s", "in which the wall comes back to its place",
                                        Range::positive(), 5.0);
     scene.arrival_threshold =
@@ -200,6 +301,18 @@ void read_output(const common::SceneFile& file, const Section& section, Scene& s
     if (scene.offshore < scene.onshore && (x[0] < scene.offshore || x[1] > scene.onshore))
         flow.problem("x", fmt::format("the grid leaves the near field, x = {:g} to {:g} m", scene.offshore,
                                       scene.onshore));
+    // a spacing that follows from a mistaken particle spacing is not judged again
+    const double judged = flow.has("spacing") ? spacing : std::max(spacing, 1e-3 * scene.settings.depth);
+    const double nodes = ((x[1] - x[0]) / judged + 1) * ((z[1] - z[0]) / judged + 1);
+    const double samples = std::min(scene.time.window, scene.time.end) / interval + 1;
+    if (2 * nodes * samples > most_window_values)
+        flow.problem("spacing", fmt::format("the grid has {:.2g} points and {:.2g} samples in a window; at "
+                                            "most {:.1g} values fit into one",
+                                            nodes, samples, most_window_values));
+    if (interval > scene.time.window * (1 + 1e-9))
+        flow.problem("interval", fmt::format("{:g} s is longer than time.window = {:g} s: a window holds its "
+                                             "two ends at least",
+                                             interval, scene.time.window));
     scene.flow = {.x0 = x[0], .x1 = x[1], .z0 = z[0], .z1 = z[1], .spacing = spacing, .interval = interval};
     scene.acceleration_smoothing =
         flow.number("acceleration_smoothing", "s", "time over which Du/Dt is averaged along the path",
@@ -233,8 +346,14 @@ Scene read_scene(const common::SceneFile& file) {
     }
     read_numerics(file, section, scene, depth);
     read_drive(section, scene, depth);
+    read_waves(file, scene, depth);
     read_output(file, section, scene);
     scene.gauges = common::read_gauges(file, 0.02);
+    for (const common::Gauge& gauge : scene.gauges)
+        if (std::min(scene.time.window, scene.time.end) / gauge.interval > most_gauge_samples)
+            file.section("gauges").problem(
+                gauge.name, fmt::format("interval {:g} s: more than {:.0e} records in a window",
+                                        gauge.interval, most_gauge_samples));
     for (const Polygon& polygon : scene.structure) {
         double x0 = 1e300, x1 = -1e300;
         for (const Point& p : polygon) x0 = std::min(x0, p[0]), x1 = std::max(x1, p[0]);

@@ -39,6 +39,9 @@ struct Scene {
     double relaxation_length = 0;    ///< m
     double relaxation_strength = 0;  ///< 1/s
     double return_time = 0;          ///< s
+    double absorption = 0;           ///< share of what comes back that the wall takes in
+    double celerity = 0;             ///< of the waves at the wall, m/s
+    double wave_height = 0;          ///< that [waves] gives, m; 0: none
     std::optional<double> start;     ///< s; absent: at arrival of the waves
     double arrival_threshold = 0;    ///< m
     double viscosity = 0;            ///< kinematic, m2/s

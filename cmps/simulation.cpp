@@ -66,8 +66,13 @@ void Simulation::compose_effects() {
 void Simulation::add_offshore_boundary() {
     wall_ = add_effect<MovingWall>(scene_.offshore, [this](double time, double step, double x) {
         waves_->go_to(time + 0.5 * step);
-        return returning_wall_velocity(waves_->mean_velocity(x), x - scene_.offshore, scene_.return_time);
+        const double taken = absorption_ ? absorption_->velocity() : 0.0;
+        return returning_wall_velocity(waves_->mean_velocity(x) + taken, x - scene_.offshore,
+                                       scene_.return_time);
     });
+    if (scene_.absorption > 0)
+        absorption_ = add_effect<Absorption>(*waves_, *wall_, scene_.celerity, scene_.absorption,
+                                             0.5 * scene_.settings.depth);
     if (scene_.has_effect("wall_overflow"))
         overflow_ = add_effect<WallOverflow>(*field_, *waves_, *wall_, scene_.crest_lowering,
                                              bottom_level(scene_, scene_.offshore));

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "cmps/balance.hpp"
+#include "cmps/effects/absorption.hpp"
 #include "cmps/effects/containment.hpp"
 #include "cmps/effects/moving_wall.hpp"
 #include "cmps/effects/overtopping_basin.hpp"
@@ -47,10 +48,11 @@ class Simulation {
     Solid solid_;
     WaveField* waves_;
     std::unique_ptr<NearField> field_;
-    Containment* containment_ = nullptr;  // these four are owned by field_->effects
+    Containment* containment_ = nullptr;  // these are owned by field_->effects
     MovingWall* wall_ = nullptr;
     OvertoppingBasin* basin_ = nullptr;
     WallOverflow* overflow_ = nullptr;
+    Absorption* absorption_ = nullptr;
     std::optional<Balance> balance_;
     std::optional<WindowOutput> output_;
     double start_;

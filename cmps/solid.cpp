@@ -18,13 +18,6 @@ Point along(const Point& a, const Point& b, double s) {
     return {a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])};
 }
 
-double signed_area(const Polygon& polygon) {
-    double twice = 0;
-    for (std::size_t i = 0; i < polygon.size(); ++i)
-        twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
-    return 0.5 * twice;
-}
-
 bool inside(const Polygon& polygon, double x, double z) {
     bool is_inside = false;
     for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
@@ -40,6 +33,25 @@ double distance_to_segment(const SurfaceSegment& segment, double x, double z) {
     const double length2 = d[0] * d[0] + d[1] * d[1];
     const double s = std::clamp((e[0] * d[0] + e[1] * d[1]) / length2, 0.0, 1.0);
     return std::hypot(e[0] - s * d[0], e[1] - s * d[1]);
+}
+
+/// True where a-b and c-d cross at an inner point of both.
+bool edges_cross(const Point& a, const Point& b, const Point& c, const Point& d) {
+    const Point ab = minus(b, a), cd = minus(d, c);
+    const double side_c = cross(ab, minus(c, a)), side_d = cross(ab, minus(d, a));
+    const double side_a = cross(cd, minus(a, c)), side_b = cross(cd, minus(b, c));
+    return side_c * side_d < 0 && side_a * side_b < 0;
+}
+
+bool on_border(const Polygon& polygon, const Point& point) {
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Point &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+        const Point ab = minus(b, a), ap = minus(point, a);
+        const double length2 = ab[0] * ab[0] + ab[1] * ab[1];
+        const double s = length2 > 0 ? std::clamp((ap[0] * ab[0] + ap[1] * ab[1]) / length2, 0.0, 1.0) : 0.0;
+        if (std::hypot(ap[0] - s * ab[0], ap[1] - s * ab[1]) < 1e-9) return true;
+    }
+    return false;
 }
 
 /// Parameters on a-b where c-d meets it.
@@ -141,16 +153,38 @@ std::vector<std::array<double, 2>> Solid::free_intervals(double x, double bottom
     return free;
 }
 
+double signed_area(const Polygon& polygon) {
+    double twice = 0;
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+        twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+    return 0.5 * twice;
+}
+
+bool overlap(const Polygon& a, const Polygon& b) {
+    for (std::size_t i = 0; i < a.size(); ++i)
+        for (std::size_t k = 0; k < b.size(); ++k)
+            if (edges_cross(a[i], a[(i + 1) % a.size()], b[k], b[(k + 1) % b.size()])) return true;
+    // no edges cross: apart, side by side, or one inside the other
+    const auto holds_a_point_of = [](const Polygon& outer, const Polygon& other) {
+        for (std::size_t i = 0; i < other.size(); ++i)
+            for (std::size_t k = i + 1; k < other.size(); ++k) {
+                const Point middle = along(other[i], other[k], 0.5);
+                if (inside(outer, middle[0], middle[1]) && inside(other, middle[0], middle[1]) &&
+                    !on_border(outer, middle))
+                    return true;
+            }
+        return false;
+    };
+    return holds_a_point_of(a, b) || holds_a_point_of(b, a);
+}
+
 bool crosses_itself(const Polygon& polygon, std::array<std::size_t, 2>& where) {
     const std::size_t n = polygon.size();
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t k = i + 2; k < n; ++k) {
             if (i == 0 && k == n - 1) continue;  // neighbours through the closing edge
             const Point &a = polygon[i], &b = polygon[i + 1], &c = polygon[k], &d = polygon[(k + 1) % n];
-            const Point ab = minus(b, a), cd = minus(d, c);
-            const double side_c = cross(ab, minus(c, a)), side_d = cross(ab, minus(d, a));
-            const double side_a = cross(cd, minus(a, c)), side_b = cross(cd, minus(b, c));
-            if (side_c * side_d < 0 && side_a * side_b < 0) {
+            if (edges_cross(a, b, c, d)) {
                 where = {i + 1, k + 1};
                 return true;
             }

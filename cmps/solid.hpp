@@ -45,6 +45,12 @@ class Solid {
     std::vector<SurfaceSegment> surface_;
 };
 
+/// Area enclosed by a polygon, m2; positive when it runs anticlockwise.
+double signed_area(const Polygon& polygon);
+
+/// True where two polygons share more than their borders.
+bool overlap(const Polygon& a, const Polygon& b);
+
 /// True where the closed polygon crosses itself; `where` gets the two edges (from 1).
 bool crosses_itself(const Polygon& polygon, std::array<std::size_t, 2>& where);
 

@@ -57,6 +57,19 @@ WaveField::WaveField(common::WindowReader& reader, double x0, double x1) : reade
     last_time_ = window.t_begin;
 }
 
+void WaveField::check_depth(const std::function<double(double)>& depth) const {
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+        const double wanted = depth(x_[i]);
+        constexpr double share = 0.02;  // cells round off kinks of the bed
+        if (std::abs(depth_[i] - wanted) > share * std::max(std::abs(wanted), std::abs(depth_[i])))
+            throw common::InputError(
+                fmt::format("{}: /still_water_depth is {:.4g} m at x = {:.4g} m, where flume.bed of the "
+                            "scene leaves {:.4g} "
+                            "m: these are the waves of another scene",
+                            reader_.path_of(0).string(), depth_[i], x_[i], wanted));
+    }
+}
+
 bool WaveField::receive_next() {
     const auto window = reader_.receive(next_index_);
     if (!window) return false;

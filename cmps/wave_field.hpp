@@ -9,6 +9,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <vector>
 
 #include "common/window_channel.hpp"
@@ -19,6 +20,9 @@ class WaveField {
  public:
     /// Keeps nodes within [x0, x1] and the nodes around. Throws InputError when the windows do not cover it.
     WaveField(common::WindowReader& reader, double x0, double x1);
+    /// Throws InputError where the windows' still water depth is not that of the scene, `depth(x)` (m): they
+    /// are then the waves of another scene.
+    void check_depth(const std::function<double(double)>& depth) const;
 
     /// Receives windows until `t1` is covered, and forgets what `t0` and later do not need. Throws InputError
     /// when the upstream stage ended earlier.

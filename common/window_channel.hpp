@@ -41,6 +41,9 @@ class WindowReader {
     /// first window on; nothing when no window reaches t.
     std::optional<std::int64_t> index_at(double t);
 
+    /// File of the window `index`, for messages.
+    std::filesystem::path path_of(std::int64_t index) const { return window_path(folder_, index); }
+
     /// The end of the last window that is there now (s), or t_begin of nothing (NaN) when there is none.
     double available_until();
 

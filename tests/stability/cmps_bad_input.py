@@ -1,4 +1,4 @@
-"""Bad input to cmps: one clear line, exit 2, before anything is written."""
+"""Bad input to cmps: one clear line with the key at fault, exit 2, before anything runs; what an earlier run left stays."""
 import os
 import subprocess
 
@@ -13,39 +13,97 @@ GOOD = {
 }
 
 
-def attempt(name, waves, **changes):
-    sections = {key.replace("__", "."): value for key, value in changes.items()}
-    text = "".join(f"[{key}]\n{sections.get(key, value)}\n" for key, value in GOOD.items())
+def attempt(name, verb, upstream, **changes):
+    sections = dict(GOOD)
+    sections.update({key.replace("__", "."): value for key, value in changes.items()})
+    text = "".join(f"[{key}]\n{value}\n" for key, value in sections.items() if value is not None)
     path, out = os.path.join(FOLDER, name + ".toml"), os.path.join(FOLDER, name + "_out")
     with open(path, "w") as file:
         file.write(text)
-    done = subprocess.run([PROGRAM, "run", path, "--waves", waves, "--out", out, "--quiet"], capture_output=True, text=True)
-    written = os.path.exists(out) and any(name.startswith("window") for name in os.listdir(out))
-    return done.returncode, done.stderr.strip(), written
+    os.makedirs(out, exist_ok=True)
+    earlier = os.path.join(out, "window_000000.h5")
+    with open(earlier, "w") as file:
+        file.write("an earlier run's window")
+    command = [PROGRAM, verb, path] + (["--out", out, "--quiet"] if verb == "run" else []) + (["--waves", upstream] if upstream else [])
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    untouched = os.listdir(out) == ["window_000000.h5"] and open(earlier).read() == "an earlier run's window"
+    return done.returncode, done.stderr.strip(), untouched
 
 
-waves = os.path.join(FOLDER, "waves")
-write_waves(waves, 0.06, 1.65, 0.4, 24, 30, 4.0, window=1.0)
-elsewhere = os.path.join(FOLDER, "elsewhere")
-write_waves(elsewhere, 0.06, 1.65, 0.4, 2, 8, 4.0, window=1.0)
-short = os.path.join(FOLDER, "short")
-write_waves(short, 0.06, 1.65, 0.4, 24, 30, 2.0, window=1.0)
+def folder_of_waves(name, *arguments, **keys):
+    path = os.path.join(FOLDER, name)
+    write_waves(path, *arguments, **keys)
+    return path
+
+
+waves = folder_of_waves("waves", 0.06, 1.65, 0.4, 24, 30, 4.0, window=1.0)
+elsewhere = folder_of_waves("elsewhere", 0.06, 1.65, 0.4, 2, 8, 4.0, window=1.0)
+short = folder_of_waves("short", 0.06, 1.65, 0.4, 24, 30, 2.0, window=1.0)
+deeper = folder_of_waves("deeper", 0.06, 1.65, 0.5, 24, 30, 4.0, window=1.0)
+flat = folder_of_waves("flat", 1e-7, 1.65, 0.4, 24, 30, 4.0, window=1.0)
+backwards = os.path.join(FOLDER, "backwards.csv")
+with open(backwards, "w") as file:
+    file.write("t,x\n0.0,0.0\n1.0,0.1\n0.5,0.2\n")
 
 wall = "offshore = 25.0\nonshore = 31.0\nparticle_spacing = 0.05\n"
+dry = 'drive = "none"\ntank = [0, 1, 0, 1]\nparticle_spacing = 0.05\n'
+no_flow = {"cmps__flow": None}
+# name, waves, changes, what the line must say
 cases = [
-    ("crossing", waves, {"cmps": wall + "structure = [[[29.0, -0.4], [30.0, 0.2], [30.0, -0.4], [29.0, 0.2]]]"}, "crosses itself"),
+    # polygons
+    ("crossing", waves, {"cmps": wall + "structure = [[[29.0, -0.4], [30.0, 0.2], [30.0, -0.4], [29.0, 0.2]]]"}, "cmps.structure: polygon 1 crosses itself"),
     ("open", waves, {"cmps": wall + "structure = [[[29.0, -0.4], [30.0, 0.2]]]"}, "at least 3"),
     ("inside", waves, {"cmps": wall + "structure = [[[24.5, -0.4], [30.0, -0.4], [30.0, 0.2]]]"}, "stands in the structure"),
+    ("outside", waves, {"cmps": wall + "structure = [[[34.0, -0.4], [35.0, -0.4], [35.0, 0.2]]]"}, "cmps.structure: polygon 1 (x = 34 to 35 m) lies outside the near field, x = 25 to 31 m"),
+    ("buried", waves, {"cmps": wall + "structure = [[[29.0, -0.9], [30.0, -0.9], [30.0, -0.6]]]"}, "polygon 1 lies wholly under the bed"),
+    ("not_numbers", waves, {"cmps": wall + 'structure = [[["a", 0], [1, 0], [1, 1]]]'}, "cmps.structure"),
+    ("double_water", None, {"cmps": dry + "water = [[[0, 0], [0.5, 0], [0.5, 0.5], [0, 0.5]], [[0.3, 0], [0.8, 0], [0.8, 0.5], [0.3, 0.5]]]", **no_flow}, "cmps.water: polygons 1 and 2 overlap"),
+    ("water_in_water", None, {"cmps": dry + "water = [[[0, 0], [0.8, 0], [0.8, 0.5], [0, 0.5]], [[0.3, 0.1], [0.5, 0.1], [0.5, 0.3], [0.3, 0.3]]]", **no_flow}, "cmps.water: polygons 1 and 2 overlap"),
+    ("spilled", None, {"cmps": dry + "water = [[[0, 0], [1.5, 0], [1.5, 0.5], [0, 0.5]]]", **no_flow}, "cmps.water: polygon 1 (x = 0 to 1.5, z = 0 to 0.5 m) leaves the tank"),
+    ("tank_upside_down", None, {"cmps": 'drive = "none"\ntank = [0, 1, 1, 0]', **no_flow}, "x0 < x1 and z0 < z1"),
+    # resolution and sizes
     ("coarse", waves, {"cmps": "offshore = 25.0\nonshore = 31.0\nparticle_spacing = 0.5"}, "too coarse"),
+    ("too_fine", waves, {"cmps": "offshore = 25.0\nonshore = 31.0\nparticle_spacing = 1e-5"}, "makes about 2.4e+10 particles"),
+    ("grid_too_fine", waves, {"cmps__flow": "x = [29.0, 30.0]\nz = [-0.4, 0.1]\nspacing = 2e-5"}, "cmps.flow.spacing: the grid has 1.3e+09 points"),
+    ("grid_too_often", waves, {"cmps__flow": "x = [29.0, 30.0]\nz = [-0.4, 0.1]\ninterval = 1e-9"}, "samples in a window"),
+    ("grid_too_seldom", waves, {"cmps__flow": "x = [29.0, 30.0]\nz = [-0.4, 0.1]\ninterval = 2.0"}, "cmps.flow.interval: 2 s is longer than time.window = 1 s"),
+    ("gauge_too_often", waves, {"gauges": "g = {x = 29.0, interval = 1e-9}"}, "gauges.g: interval 1e-09 s"),
+    # places
     ("ends", waves, {"cmps": "offshore = 31.0\nonshore = 25.0\nparticle_spacing = 0.05"}, "shoreward of cmps.offshore"),
+    ("beyond_bed", waves, {"cmps": "offshore = 25.0\nonshore = 45.0\nparticle_spacing = 0.05"}, "lies outside the flume's bed"),
+    ("on_land", waves, {"flume": "bed = [[0.0, 0.1], [40.0, 0.1]]"}, "there is no water"),
     ("grid", waves, {"cmps__flow": "x = [20.0, 30.0]\nz = [-0.4, 0.1]"}, "leaves the near field"),
+    ("grid_backwards", waves, {"cmps__flow": "x = [30.0, 29.0]\nz = [-0.4, 0.1]"}, "x0 < x1"),
+    ("zone_too_long", waves, {"cmps": wall + "relaxation_length = 7.0"}, "longer than the near field"),
+    # words and numbers
     ("unknown", waves, {"cmps": wall + "particel_spacing = 0.05"}, "particel_spacing"),
     ("word", waves, {"cmps": wall + 'gradient = "best"'}, "corrected"),
+    ("negative", waves, {"cmps": wall + "viscosity = -1.0"}, "cmps.viscosity"),
+    ("not_a_number", waves, {"cmps": wall + "courant = nan"}, "cmps.courant"),
+    ("start_word", waves, {"cmps": wall + 'start = "late"'}, "cmps.start"),
+    ("start_too_late", waves, {"cmps": wall + "start = 9.0"}, "time.end = 4 s lies before the near field starts"),
+    ("effect_word", waves, {"effects": 'turbulence = "maybe"'}, "effects.turbulence"),
+    # tables
+    ("no_piston", None, {"cmps": wall + 'drive = "piston"'}, "piston_file"),
+    ("absent_piston", None, {"cmps": wall + 'drive = "piston"\npiston_file = "nothing.csv"'}, "nothing.csv"),
+    ("backward_piston", None, {"cmps": wall + f'drive = "piston"\npiston_file = "{backwards}"'}, "backwards.csv"),
+    # waves
     ("elsewhere", elsewhere, {}, "cover x"),
     ("short", short, {}, "end at t = 2"),
+    ("deeper", deeper, {}, "/still_water_depth is 0.5 m at x = 24.35 m, where flume.bed of the scene leaves 0.4 m"),
+    ("flat", flat, {}, "the waves never reach cmps.offshore"),
     ("nowhere", os.path.join(FOLDER, "nothing"), {}, "no such folder"),
+    ("no_waves", None, {}, "--waves DIR is needed"),
+    ("wave_height", waves, {"waves": 'kind = "regular"\nheight = "tall"\nperiod = 1.65'}, "waves.height"),
+    ("wave_period", waves, {"waves": 'kind = "regular"\nheight = 0.06\nperiod = -1'}, "waves.period"),
+    ("wave_kind", waves, {"waves": 'kind = "regluar"\nheight = 0.06\nperiod = 1.65'}, "waves.kind"),
 ]
 for name, folder, changes, phrase in cases:
-    status, message, written = attempt(name, folder, **changes)
-    expect(status == 2 and phrase in message and not written and len(message.splitlines()) == 1, f"{name}: exit {status}: {message}")
+    status, message, untouched = attempt(name, "run", folder, **changes)
+    told = message.replace(FOLDER + os.sep, "")
+    expect(status == 2 and phrase in message and len(message.splitlines()) == 1, f"{name}: exit {status}: {told}")
+    expect(untouched, f"{name}: the earlier run's files are as they were")
+    if name != "no_waves":  # check needs no waves
+        seen, said, _ = attempt(name, "check", folder, **changes)
+        expect(seen == 2 and said == message, f"{name}: check says the same" if said == message else f"{name}: check, exit {seen}: {said}")
 finish()
