@@ -179,10 +179,22 @@ void subtract_accelerations(const DispersionSystem& system, std::size_t middle, 
         discharge[centre] -= step * depth[centre] * right;
         discharge[centre - 1] -= step * depth[centre - 1] * left;
     }
+    // Asked for ahead of the recurrences, which leave the processor no time to wait.
+    constexpr std::size_t ahead = 128, line = 64 / sizeof(double);
+    const auto fetch = [&](std::size_t k) {
+        __builtin_prefetch(ratio + k);
+        __builtin_prefetch(value + k);
+        __builtin_prefetch(depth + k);
+        __builtin_prefetch(discharge + k, 1);
+    };
     std::size_t i = centre - 1, j = centre;
     while (i > first && j < last) {
         --i;
         ++j;
+        if (i % line == 0) {
+            fetch(i > first + ahead ? i - ahead : first);
+            fetch(std::min(j + ahead, last));
+        }
         left = value[i] - ratio[i] * left;
         right = value[j] - ratio[j] * right;
         discharge[i] -= step * depth[i] * left;

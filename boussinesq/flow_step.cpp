@@ -7,6 +7,34 @@
 #include "boussinesq/shallow_water.hpp"
 
 namespace boussinesq {
+namespace {
+
+/// The cells of the tile that this sweep comes to next, asked for while the one in hand is computed: array by
+/// array between its parts, since the processor takes only so many requests at once. Without it the sweeps of
+/// a long flume wait for memory (README).
+struct Ahead {
+    /// `is_left`: the sweep goes shoreward. The flume holds `padded` cells.
+    Ahead(const Tile& tile, bool is_left, std::size_t padded)
+        : first(is_left ? std::min(tile.first + tile_cells, padded)
+                        : tile.first - std::min(tile.first, tile_cells)),
+          last(padded < short_flume ? first
+               : is_left            ? std::min(first + tile_cells, padded)
+                                    : tile.first) {}
+
+    void fetch(const CellArray& values) const {
+        for (std::size_t k = first; k < last; k += line) __builtin_prefetch(&values[k], 0);
+    }
+    void fetch_to_write(const CellArray& values) const {
+        for (std::size_t k = first; k < last; k += line) __builtin_prefetch(&values[k], 1);
+    }
+
+ private:
+    static constexpr std::size_t short_flume = 8192;  // padded cells that stay in the second-level cache
+    static constexpr std::size_t line = 64 / sizeof(double);
+    std::size_t first, last;  // padded cells [first, last)
+};
+
+}  // namespace
 
 FlowStep::FlowStep(const Grid& grid, Bed bed, const FlowParameters& flow, FlowTerms terms)
     : grid_(grid),
@@ -108,14 +136,21 @@ void FlowStep::stage_of(const WaveState& start, double start_share, WaveState& i
 template <bool with_dispersion, bool with_shoreline>
 void FlowStep::sweep_tile(Tile& tile, const WaveState& start, double start_share, const WaveState& in,
                           double stage_share, double step, WaveState& out) {
+    const bool with_start = start_share != 0.0;
+    const Ahead ahead(tile, &tile == left_tile_.get(), grid_.padded());
+    ahead.fetch(in.depth);
     load_tile(tile, in.depth.data(), in.discharge.data(), bed_.face_level.data(), flow_, with_shoreline);
+    ahead.fetch(in.discharge);
     // Bores need to know which cells are first order, as dry cells do.
     const bool wet = (!with_shoreline || is_deep(tile, flow_)) && bores_ == nullptr;
     if (wet)
         wet_fluxes(tile, flow_);
     else
         shoreline_fluxes(tile, flow_, step);
+    ahead.fetch(bed_.face_level);
+    ahead.fetch_to_write(out.depth);
     if constexpr (with_dispersion) {
+        ahead.fetch_to_write(system_.ratio);
         if (wet)
             assemble_wet_dispersion(tile, flow_);
         else
@@ -133,6 +168,9 @@ void FlowStep::sweep_tile(Tile& tile, const WaveState& start, double start_share
             tile.off_diagonal[last + 1] = 0.0;
         }
     }
+    ahead.fetch_to_write(out.discharge);
+    if constexpr (with_dispersion) ahead.fetch_to_write(system_.value);
+    if (with_start) ahead.fetch(start.depth);
     if (tile.first == 0) water_through_ends_ += step_share_ * step * tile.depth_flux[tile.begin()];
     if (tile.first + tile.count == grid_.cells)
         water_through_ends_ -= step_share_ * step * tile.depth_flux[tile.end()];
@@ -154,6 +192,7 @@ void FlowStep::sweep_tile(Tile& tile, const WaveState& start, double start_share
             q_out[t] = start_share * q_start[t] + stage_share * (q_in[t] + step * rate);
         }
     };
+    if (with_start) ahead.fetch(start.discharge);
     if (wet) {
         update([&](std::size_t t) { return wet_discharge_rate(tile, t, inverse); });
     } else {

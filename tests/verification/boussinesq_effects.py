@@ -70,6 +70,15 @@ def shoreline(folder):
     check(effect(run_scene(folder, text, "auto"), "shoreline"), "auto leaves the shoreline out on a beach")
     scene = write_scene(folder, text, "off.toml")
     run("boussinesq", "run", scene, "--out", folder / "off", "--quiet", "--set", "effects.shoreline=off").expect_error(2, "shoreline", "off")
+    # Without it there is no answer on a beach, so it is refused; what a user can run instead ends at a wall in shallow water.
+    low = 'kind = "regular"\nheight = 0.02\nperiod = 1.8'
+    reflection = {}
+    for name, bed, more in (("beach", BEACH, ""), ("cut", "[[0.0, -0.4], [14.0, -0.4], [23.0, -0.1]]", '\nshoreward = "wall"\n[effects]\nshoreline = "off"')):
+        record = run_scene(folder, f"[gauges]\ng = 10.0\n" + flume(bed, low, 80.0, more="spacing = 0.05" + more).replace("[gauges]\n", ""), name)
+        check(effect(record, "shoreline") == (name == "beach"), f"{name}: shoreline is {record['effects']['shoreline']}")
+        reflection[name] = record["figures"]["gauges"]["g"]["reflection_coefficient"]
+    check_below("beach: reflection", reflection["beach"], 0.25, "", "surf similarity 0.53: 0.1 * 0.53^2 = 0.03 (Battjes 1974), and the gauges' method")
+    check_between("cut off by a wall at 0.1 m: reflection", reflection["cut"], 0.6, 1.1, "", "waves of a fifth of that depth do not break before the wall")
 
     text = flume(LEVEL, SHORT_WAVES, 30.0, more="spacing = 0.05\ncourant = 0.5")
     check(not effect(run_scene(folder, text, "deep"), "shoreline"), "auto takes the shoreline in where the bed stays wet")
@@ -81,10 +90,20 @@ def shoreline(folder):
 def friction(folder):
     text = flume(LEVEL, SHORT_WAVES, 40.0, gauges="g = 25.0")
     check(not effect(run_scene(folder, text, "auto"), "friction"), "auto takes friction in without a coefficient")
-    run_scene(folder, text, "rough", "--set", "boussinesq.friction=0.2")
-    smooth, rough = (run_folder.read_run(folder / name)["figures"]["gauges"]["g"]["mean_height"] for name in ("auto", "rough"))
-    # Putnam and Johnson (1949): dH/dx = -(8/3 pi) f ... ; for shallow-water depth-averaged stress: da/dx = -(4/3 pi) c (u^3 mean) / (g cg a)
-    check_between("height at 25 m with a coefficient of 0.2 over that without", rough / smooth, 0.5, 0.97, "", "loss of energy by quadratic friction")
+    # Long waves, quadratic friction, level bed: d(E cg)/dx = -c (4 / 3 pi) U^3 with U = a w / (k h), so that a falls as
+    # 1 / (1 + B a x), B = c (4 / 3 pi) (w / k h)^3 / (g cg); T = 5 s in 0.4 m: k h = 0.2565, cg = 1.918 m/s (Airy).
+    rough_text = flume("[[0.0, -0.4], [90.0, -0.4]]", 'kind = "regular"\nheight = 0.01\nperiod = 5.0', 120.0, "spacing = 0.1\nfriction = 1.0", gauges="a = 25.0\nb = 40.0")
+    amplitude = {}
+    for name, more in (("rough", ""), ("off", '[effects]\nfriction = "off"\n')):
+        record = run_scene(folder, rough_text + more, name)
+        check(effect(record, "friction") == (name == "rough"), f"{name}: friction is {record['effects']['friction']}")
+        amplitude[name] = [0.5 * record["figures"]["gauges"][gauge]["mean_height"] for gauge in "ab"]
+    decay = 4 / (3 * numpy.pi) * (2 * numpy.pi / 5.0 / 0.2565) ** 3 / (9.81 * 1.918)
+    theory = 1 / (1 + decay * amplitude["rough"][0] * 15.0)
+    print(f"    theory: {theory:.4f}")
+    check_below("coefficient of 1: height at 40 m over that at 25 m, against theory", amplitude["rough"][1] / amplitude["rough"][0] - theory, 0.02, "",
+                "H/h = 2.5 % enters, and friction takes 1 + (kh)^2 / 3 of the work of the mean velocity")
+    check_between("without friction: height at 40 m too high by", amplitude["off"][1] / amplitude["rough"][1] - 1, 0.1, 1.5, "", "what friction takes out of 40 m")
     run_scene(folder, text, "zero", "--set", "boussinesq.friction=0.0")
     check_below("no coefficient: auto and a coefficient of zero differ by", abs(elevation(folder, "auto") - elevation(folder, "zero")).max(), 0.0, "m", "the term is not there")
 
