@@ -37,6 +37,7 @@ FixedSpheres::FixedSpheres(std::vector<Vector> centres, double diameter, double 
         order_[next[cell]++] = i;
         own_top[cell] = std::max(own_top[cell], centres_[i].z());
     }
+    for (const auto sphere : order_) in_order_.push_back(centres_[sphere]);
     top_ = own_top;
     for (std::int64_t y = 1; y + 1 < count_y_; ++y)
         for (std::int64_t x = 1; x + 1 < count_x_; ++x)
@@ -54,7 +55,7 @@ std::int64_t FixedSpheres::cell_of(double x, double y) const {
     return j * count_x_ + i;
 }
 
-void FixedSpheres::find_near(const Vector& point, double distance, std::vector<std::uint32_t>& found) const {
+void FixedSpheres::find_near(const Vector& point, double distance, std::vector<Near>& found) const {
     if (centres_.empty()) return;
     const std::int64_t cell = cell_of(point.x(), point.y());
     if (cell < 0 || point.z() - distance > top_[static_cast<std::size_t>(cell)]) return;
@@ -65,9 +66,11 @@ void FixedSpheres::find_near(const Vector& point, double distance, std::vector<s
         const auto from = static_cast<std::size_t>(y * count_x_ + std::max<std::int64_t>(column - 1, 0));
         const auto to = static_cast<std::size_t>(y * count_x_ + std::min(column + 1, count_x_ - 1));
         for (std::uint32_t k = begin_[from]; k < begin_[to + 1]; ++k)
-            if ((centres_[order_[k]] - point).squaredNorm() < distance * distance) found.push_back(order_[k]);
+            if ((in_order_[k] - point).squaredNorm() < distance * distance)
+                found.push_back({order_[k], in_order_[k]});
     }
-    std::sort(found.begin() + static_cast<std::ptrdiff_t>(first), found.end());
+    std::sort(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(),
+              [](const Near& a, const Near& b) { return a.sphere < b.sphere; });
 }
 
 double FixedSpheres::highest_near(double x, double y, double distance) const {

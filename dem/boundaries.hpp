@@ -29,9 +29,14 @@ class FixedSpheres {
     double lowest() const { return lowest_; }
     double highest() const { return highest_; }
 
+    /// A sphere that was found.
+    struct Near {
+        std::uint32_t sphere;
+        Vector centre;
+    };
     /// Appends to `found` the spheres whose centres are within `distance` (<= reach) of `point`, in ascending
     /// order.
-    void find_near(const Vector& point, double distance, std::vector<std::uint32_t>& found) const;
+    void find_near(const Vector& point, double distance, std::vector<Near>& found) const;
     /// Height of the highest sphere centre within `distance` (horizontally) of x, y; -infinity where there is
     /// none.
     double highest_near(double x, double y, double distance) const;
@@ -42,6 +47,7 @@ class FixedSpheres {
     double diameter_ = 0, cell_ = 1, origin_x_ = 0, origin_y_ = 0, lowest_ = 0, highest_ = 0;
     std::int64_t count_x_ = 0, count_y_ = 0;
     std::vector<std::uint32_t> begin_, order_;  // spheres of each column
+    std::vector<Vector> in_order_;              // their centres, so that a search reads memory in a row
     std::vector<double> top_;                   // highest centre in the 3 x 3 columns around each column
 };
 

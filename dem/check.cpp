@@ -1,6 +1,7 @@
 /// `dem check`: effects with reasons, and a forecast of steps, memory and time from a short calibration.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -18,19 +19,31 @@ double seconds_of(const auto& work) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
 }
 
-/// Time of one step of the scene's own blocks, once they have come down: a tenth of a second of packing, then
-/// a timed stretch.
-double seconds_per_step(const Scene& scene) {
+/// What one step of the scene has to do, and how long it takes here.
+struct StepWork {
+    std::size_t contacts = 0, wires = 0;
+    double seconds = 0;
+};
+
+/// The scene's own blocks once they have come down, with its wires: a tenth of a second of packing, then a
+/// timed stretch.
+StepWork work_of_a_step(const Scene& scene) {
     const auto simulation = build_simulation(scene, true);
     simulation->start(0);
     // Blocks are placed a tenth of an element above the mound; they are down after sqrt(2 h / g) = 0.02 s.
     simulation->advance(0.05);
+    mount_layout(*simulation, scene, poses_of(simulation->blocks), nullptr);
     const auto before = simulation->steps();
     const double begun = simulation->time();
     double spent = 0;
     while (spent < 0.2 && simulation->time() < begun + 2)
         spent += seconds_of([&] { simulation->advance(simulation->time() + 0.01); });
-    return spent / static_cast<double>(simulation->steps() - before);
+    StepWork work;
+    work.wires = simulation->wires.size();
+    for (const auto& pair : simulation->pair_list().pairs()) work.contacts += pair.contacts.size();
+    // A scene whose blocks all fall asleep at once has no steps to time.
+    work.seconds = spent / std::max(1.0, static_cast<double>(simulation->steps() - before));
+    return work;
 }
 
 }  // namespace
@@ -46,18 +59,19 @@ void check(const common::StageCommand& command, const common::SceneFile& file, c
         moving += !scene.placed.is_fixed[i];
     }
     const double steps = std::ceil(scene.time.end / scene.step.time_step);
-    const double each = seconds_per_step(scene);
+    const StepWork work = work_of_a_step(scene);
     common::print_check_report(
         scene.effects.records,
         {{"blocks", fmt::format("{}, {} free to move; {} spheres", scene.placed.size(), moving, spheres)},
          {"fixed", fmt::format("{} spheres, {} planes", scene.surroundings.fixed_spheres.size(),
                                scene.surroundings.planes.size())},
          {"links", fmt::format("{}", scene.wires.links.size())},
+         {"a step", fmt::format("{} contacts, {} wires", work.contacts, work.wires)},
          {"steps", fmt::format("at most {:.0f} of {:.3g} s ({}); the flow may start later", steps,
                                scene.step.time_step, scene.time_step_is_chosen ? "chosen" : "given")},
          {"run time", fmt::format("at most about {} on this machine ({:.3g} ms a step with all blocks awake; "
                                   "sleeping saves more)",
-                                  common::run_time_text(each * steps), 1e3 * each)},
+                                  common::run_time_text(work.seconds * steps), 1e3 * work.seconds)},
          {"error",
           fmt::format("energy balance about {:.1g} of what contacts dissipate (first order in the step)",
                       0.01 * scene.step.time_step / 1e-4 * std::sqrt(scene.material.young_modulus / 1e7))}});

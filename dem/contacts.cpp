@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "common/parallel.hpp"
 #include "dem/contact_laws.hpp"
@@ -112,7 +113,7 @@ void fetch_ahead(const PairList& list, std::span<const std::uint32_t> active, st
     constexpr std::size_t line = 64;
     if (k + far >= active.size()) return;
     const auto* pair = reinterpret_cast<const char*>(&list.pairs()[active[k + far]]);
-    for (std::size_t byte = 0; byte < sizeof(Pair); byte += line) __builtin_prefetch(pair + byte);
+    for (std::size_t byte = 0; byte < offsetof(Pair, last); byte += line) __builtin_prefetch(pair + byte);
     const Pair& next = list.pairs()[active[k + near]];
     const auto* centres = reinterpret_cast<const char*>(next.centres.data());
     for (std::size_t byte = 0; byte < next.centres.size() * sizeof(Vector); byte += line)
@@ -130,12 +131,13 @@ class PairwiseContacts final : public ContactModel {
         : law_(law), friction_(friction), damping_ratio_(damping_ratio) {}
 
     void evaluate(const Blocks& blocks, const Surroundings& surroundings, PairList& list,
-                  std::span<const std::uint32_t> active, double dt) const override {
+                  std::span<const std::uint32_t> active, double dt,
+                  std::span<PairForces> forces) const override {
         constexpr std::size_t serial_below =
             2000;  // pairs; waking threads costs as much as a few hundred of them
         common::parallel_for(active.size(), serial_below, [&](std::size_t k) {
             fetch_ahead(list, active, k);
-            evaluate_pair(blocks, surroundings, list, list.pairs()[active[k]], dt);
+            evaluate_pair(blocks, surroundings, list, list.pairs()[active[k]], dt, forces[k]);
         });
     }
 
@@ -168,14 +170,13 @@ class PairwiseContacts final : public ContactModel {
     }
 
     void evaluate_pair(const Blocks& blocks, const Surroundings& surroundings, const PairList& list,
-                       Pair& pair, double dt) const {
+                       Pair& pair, double dt, PairForces& forces) const {
         thread_local std::vector<Touch> touches;
         thread_local std::vector<Contact> now;
         touches.clear();
         find_touches(blocks, surroundings, list, pair, touches);
         if (touches.empty()) {
             pair.contacts.clear();
-            pair.dissipated = pair.largest_overlap = 0;
             return;
         }
         const bool partner_is_block = list.is_block(pair.partner);
@@ -227,14 +228,14 @@ class PairwiseContacts final : public ContactModel {
             largest_overlap = std::max(largest_overlap, touch.overlap);
             now.push_back(contact);
         }
-        pair.damping_force = damping_force;
-        pair.damping_torque = damping_torque;
-        pair.force = elastic_force + damping_force;
-        pair.torque_on_block = elastic_torque + damping_torque;
-        pair.offset = offset;
-        pair.dissipated = dissipated;
-        pair.largest_overlap = largest_overlap;
-        pair.contacts.swap(now);
+        forces = {.force = elastic_force + damping_force,
+                  .torque_on_block = elastic_torque + damping_torque,
+                  .offset = offset,
+                  .damping_force = damping_force,
+                  .damping_torque = damping_torque,
+                  .dissipated = dissipated,
+                  .largest_overlap = largest_overlap};
+        pair.contacts.assign(now.begin(), now.end());  // in place: memory stays where the next pairs' lies
     }
 
     Law law_;

@@ -21,9 +21,11 @@ namespace dem {
 class ContactModel {
  public:
     virtual ~ContactModel() = default;
-    /// Forces, torques, dissipation and largest overlap of the given pairs; contact histories go on by `dt`.
+    /// Forces of the given pairs, in `forces` one for each; contact histories go on by `dt`. A pair that does
+    /// not touch is left without contacts, and its forces are not set.
     virtual void evaluate(const Blocks& blocks, const Surroundings& surroundings, PairList& list,
-                          std::span<const std::uint32_t> active, double dt) const = 0;
+                          std::span<const std::uint32_t> active, double dt,
+                          std::span<PairForces> forces) const = 0;
     /// Energy stored in normal and tangential springs at the present poses, J.
     virtual double elastic_energy(const Blocks& blocks, const Surroundings& surroundings,
                                   const PairList& list) const = 0;

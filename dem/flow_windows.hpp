@@ -1,11 +1,13 @@
 /// The near field's windows as water motion.
 #pragma once
 
+#include <filesystem>
 #include <vector>
 
 #include "common/window.hpp"
 #include "common/window_channel.hpp"
 #include "dem/blocks.hpp"
+#include "dem/mound.hpp"
 #include "dem/water_motion.hpp"
 
 namespace dem {
@@ -19,5 +21,10 @@ FlowGrid flow_grid_of(const common::Window& window, bool still_outside);
 
 /// Throws common::InputError unless the grid covers every sphere of every block that can move.
 void require_cover(const FlowGrid& grid, const Blocks& blocks, const std::string& folder);
+
+/// Throws InputError when the structure of the near field (geometry.h5 of its folder, where there is one) and
+/// the mound of this scene differ under a block that is free to move: then the flow is that of another scene.
+/// `mound`: mean profile [x, z], may be empty.
+void require_same_mound(const std::filesystem::path& folder, const MoundProfile& mound, const Blocks& blocks);
 
 }  // namespace dem

@@ -27,8 +27,8 @@ void FluidLoads::sample(Blocks& blocks, double t, double hold) {
     }
 }
 
-void FluidLoads::add(Blocks& blocks, const std::vector<std::uint32_t>& wanted,
-                     const std::vector<std::uint8_t>&, double) {
+void FluidLoads::add(Blocks& blocks, std::span<const std::uint32_t> wanted, const std::vector<std::uint8_t>&,
+                     double) {
     for (const auto i : wanted) {
         applied_[i] = loads_[i].force_at(blocks.velocity[i]);
         blocks.force[i] += applied_[i];
@@ -36,8 +36,8 @@ void FluidLoads::add(Blocks& blocks, const std::vector<std::uint32_t>& wanted,
     }
 }
 
-void FluidLoads::account(const Blocks& blocks, const std::vector<std::uint32_t>& movable, double dt) {
-    for (const auto i : movable) {
+void FluidLoads::account(const Blocks& blocks, std::span<const std::uint32_t> some, double dt) {
+    for (const auto i : some) {
         const double done =
             dt * (applied_[i].dot(blocks.velocity[i]) + loads_[i].torque.dot(blocks.angular_velocity[i]));
         work += done;
@@ -45,7 +45,7 @@ void FluidLoads::account(const Blocks& blocks, const std::vector<std::uint32_t>&
     }
 }
 
-void WireLoads::add(Blocks& blocks, const std::vector<std::uint32_t>& wanted,
+void WireLoads::add(Blocks& blocks, std::span<const std::uint32_t> wanted,
                     const std::vector<std::uint8_t>& is_wanted, double t) {
     // More blocks wanted than are awake: the sums of sleepers too, so all wires.
     wires_.pull(blocks, t, wanted.size() > awake_count_ ? all_ : active_, is_wanted);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -20,10 +21,10 @@ class Load {
     virtual void sample(Blocks& blocks, double t, double hold) = 0;
     /// Adds to blocks.force and blocks.torque; every step. `wanted`: the blocks whose sums are wanted, also
     /// as flags.
-    virtual void add(Blocks& blocks, const std::vector<std::uint32_t>& wanted,
+    virtual void add(Blocks& blocks, std::span<const std::uint32_t> wanted,
                      const std::vector<std::uint8_t>& is_wanted, double t) = 0;
-    /// After the step: adds up the work done on the blocks.
-    virtual void account(const Blocks& blocks, const std::vector<std::uint32_t>& movable, double dt) = 0;
+    /// After the step of these blocks: adds up the work done on them.
+    virtual void account(const Blocks& blocks, std::span<const std::uint32_t> some, double dt) = 0;
     /// Who is awake has changed.
     virtual void awake_changed(const std::vector<std::uint8_t>& is_awake) = 0;
 };
@@ -34,9 +35,9 @@ class FluidLoads final : public Load {
     FluidLoads(const Blocks& blocks, FluidProperties properties, std::variant<UniformWater, FlowGrid> motion);
 
     void sample(Blocks& blocks, double t, double hold) override;
-    void add(Blocks& blocks, const std::vector<std::uint32_t>& wanted,
+    void add(Blocks& blocks, std::span<const std::uint32_t> wanted,
              const std::vector<std::uint8_t>& is_wanted, double t) override;
-    void account(const Blocks& blocks, const std::vector<std::uint32_t>& movable, double dt) override;
+    void account(const Blocks& blocks, std::span<const std::uint32_t> some, double dt) override;
     void awake_changed(const std::vector<std::uint8_t>&) override {}
 
     std::variant<UniformWater, FlowGrid> motion;
@@ -56,9 +57,9 @@ class WireLoads final : public Load {
  public:
     explicit WireLoads(Wires& wires) : wires_(wires) {}
     void sample(Blocks&, double, double) override {}
-    void add(Blocks& blocks, const std::vector<std::uint32_t>& wanted,
+    void add(Blocks& blocks, std::span<const std::uint32_t> wanted,
              const std::vector<std::uint8_t>& is_wanted, double t) override;
-    void account(const Blocks&, const std::vector<std::uint32_t>&, double) override {}
+    void account(const Blocks&, std::span<const std::uint32_t>, double) override {}
     void awake_changed(const std::vector<std::uint8_t>& is_awake) override;
 
  private:

@@ -19,6 +19,7 @@ struct Water {
     double density = 1000;                ///< kg/m^3
     double viscosity = 1e-6;              ///< kinematic, m^2/s
     double added_mass_coefficient = 0.5;  ///< C_M
+    double drag_coefficient = 0.4;        ///< C_D of eq. (12) at high Reynolds numbers
 };
 
 /// Elastic and frictional properties shared by all spheres.

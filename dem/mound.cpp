@@ -9,9 +9,7 @@
 
 namespace dem {
 
-namespace {
-
-double mean_height(const std::vector<std::array<double, 2>>& profile, double x) {
+double mean_height(const MoundProfile& profile, double x) {
     if (x <= profile.front()[0]) return profile.front()[1];
     for (std::size_t i = 1; i < profile.size(); ++i)
         if (x <= profile[i][0])
@@ -19,8 +17,6 @@ double mean_height(const std::vector<std::array<double, 2>>& profile, double x) 
                                            (profile[i][0] - profile[i - 1][0]);
     return profile.back()[1];
 }
-
-}  // namespace
 
 std::vector<Vector> build_mound(const MoundDescription& description) {
     const double d = description.diameter;
@@ -35,13 +31,20 @@ std::vector<Vector> build_mound(const MoundDescription& description) {
                                                                    gsl_rng_free);
     gsl_rng_set(random.get(), description.seed);
 
-    std::vector<double> top(static_cast<std::size_t>(count_x * count_y));
+    const auto patch = std::max<std::int64_t>(1, std::llround(description.patch / d));
+    std::vector<double> top(static_cast<std::size_t>(count_x * count_y)), deviate(top.size());
     for (std::int64_t i = 0; i < count_x; ++i)
         for (std::int64_t j = 0; j < count_y; ++j) {
             const double x = x_begin + (static_cast<double>(i) + 0.5) * pitch_x;
-            // Box-Muller, as in the paper.
-            top[static_cast<std::size_t>(i * count_y + j)] =
-                mean_height(description.profile, x) + gsl_ran_gaussian(random.get(), description.roughness);
+            double& height = top[static_cast<std::size_t>(i * count_y + j)];
+            height = mean_height(description.profile, x);
+            // Columns of one patch share their deviate: that of its first column. Box-Muller, as in the
+            // paper.
+            double& own = deviate[static_cast<std::size_t>(i * count_y + j)];
+            own = i % patch == 0 && j % patch == 0
+                      ? gsl_ran_gaussian(random.get(), description.roughness)
+                      : deviate[static_cast<std::size_t>((i - i % patch) * count_y + j - j % patch)];
+            height += own;
         }
 
     std::vector<Vector> centres;

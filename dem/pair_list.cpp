@@ -196,9 +196,9 @@ void PairList::find_candidates(Pair& pair) {
             near_.clear();
             const double reach = 0.5 * (shape.diameter + surroundings_.fixed_spheres.diameter()) + skin_;
             surroundings_.fixed_spheres.find_near(centre, reach, near_);
-            for (const auto other : near_) {
-                pair.candidates.push_back({sphere, other});
-                pair.centres.push_back(surroundings_.fixed_spheres.centre(other));
+            for (const auto& other : near_) {
+                pair.candidates.push_back({sphere, other.sphere});
+                pair.centres.push_back(other.centre);
             }
         } else {
             const Plane& wall = plane(pair.partner);
@@ -235,9 +235,7 @@ void PairList::restore(const std::vector<Pair>& saved) {
         while (place != pairs_.end() && order_of(*place) < order_of(pair)) ++place;
         if (place == pairs_.end() || order_of(*place) != order_of(pair)) continue;
         place->contacts = pair.contacts;
-        place->force = pair.force;
-        place->torque_on_block = pair.torque_on_block;
-        place->offset = pair.offset;
+        place->last = pair.last;
     }
 }
 

@@ -29,6 +29,18 @@ struct Candidate {
     std::uint32_t a, b;
 };
 
+/// What a pair does to its two bodies.
+struct PairForces {
+    Vector force{0, 0, 0};            ///< on the block, N; the partner feels the opposite
+    Vector torque_on_block{0, 0, 0};  ///< N m, about the block's centre
+    Vector offset{0, 0, 0};  ///< from the block's centre to the partner's, m: the torque on the partner
+                             ///< is offset x force - torque_on_block
+    Vector damping_force{0, 0, 0};   ///< the dashpots' part of the force, N
+    Vector damping_torque{0, 0, 0};  ///< and of the torque on the block, N m
+    double dissipated = 0;           ///< by sliding springs in that step, J
+    double largest_overlap = 0;      ///< m
+};
+
 /// A block and a partner: a later block, the fixed spheres (number blocks.size()), or a plane (the numbers
 /// after it).
 struct Pair {
@@ -38,15 +50,7 @@ struct Pair {
     std::vector<Vector>
         centres;  ///< of the fixed spheres among the candidates, m: one piece of memory instead of many
     std::vector<Contact> contacts;
-    // Results of the last force pass.
-    Vector force{0, 0, 0};            ///< on the block, N; the partner feels the opposite
-    Vector torque_on_block{0, 0, 0};  ///< N m, about the block's centre
-    Vector offset{0, 0, 0};  ///< from the block's centre to the partner's, m: the torque on the partner
-                             ///< is offset x force - torque_on_block
-    Vector damping_force{0, 0, 0};   ///< the dashpots' part of the force, N
-    Vector damping_torque{0, 0, 0};  ///< and of the torque on the block, N m
-    double dissipated = 0;           ///< by sliding springs in that step, J
-    double largest_overlap = 0;      ///< m
+    PairForces last;  ///< of the last step before a look at the water, a sample or a saved state
 };
 
 /// The bodies that pairs are made of.
@@ -120,7 +124,8 @@ class PairList {
     std::vector<std::uint32_t> incidence_, incidence_begin_;
     std::vector<Vector> narrow_position_, wide_position_;
     std::vector<Quaternion> narrow_orientation_, wide_orientation_;
-    std::vector<std::uint32_t> near_, stale_, near_a_, near_b_;
+    std::vector<std::uint32_t> stale_, near_a_, near_b_;
+    std::vector<FixedSpheres::Near> near_;
     std::vector<Vector> centres_b_;
 };
 

@@ -51,8 +51,9 @@ class FlowSource {
                                                  folder_.string(), t));
         first_ = *index;
     }
-    /// Throws InputError unless the flow covers the blocks.
+    /// Throws InputError unless the flow is that of this mound and covers the blocks.
     void require_cover(const Blocks& blocks) {
+        if (has_flow()) require_same_mound(folder_, scene_.mound, blocks);
         if (has_flow() && !scene_.still_outside)
             dem::require_cover(flow_grid_of(reader_->first(), false), blocks, folder_.string());
     }

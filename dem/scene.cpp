@@ -31,6 +31,8 @@ void read_material(const Section& dem, Scene& scene) {
         dem.number("viscosity", "m2/s", "kinematic viscosity of water", Range::not_negative(), 1e-6);
     scene.water.added_mass_coefficient =
         dem.number("added_mass", "-", "added mass coefficient C_M", Range::not_negative(), 0.5);
+    scene.water.drag_coefficient = dem.number(
+        "drag_coefficient", "-", "C_D of eq. (12) at high Reynolds numbers", Range::not_negative(), 0.4);
     scene.material.young_modulus =
         dem.number("young_modulus", "Pa", "of the elements", Range::positive(), 1e7);
     scene.material.poisson_ratio =

@@ -58,7 +58,8 @@ struct Scene {
     SleepRules sleep;
     UniformWater uniform_water;
     bool still_outside = false;
-    double width = 0;  ///< of the armour along the breakwater, m
+    MoundProfile mound;  ///< mean surface; empty without a mound
+    double width = 0;    ///< of the armour along the breakwater, m
     std::size_t rows = 0, columns = 0;
     Blocks placed;  ///< before packing
     Surroundings surroundings;

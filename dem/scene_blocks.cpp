@@ -111,6 +111,9 @@ MoundDescription read_mound(const Section& dem, const Scene& scene, double block
     mound.roughness = section.number(
         "roughness", "m", "standard deviation of the columns' heights; default a third of the block height",
         Range::not_negative(), block_height / 3);
+    mound.patch =
+        section.number("patch", "m", "side of the patches of columns that share a height; 0: each its own",
+                       Range::not_negative(), 0.0);
     mound.seed = static_cast<std::uint64_t>(
         section.integer("seed", "of the random heights", Range::not_negative(), 1));
     const auto y = section.numbers("y", "m", "extent along the breakwater", 2, Range::any(),
@@ -184,6 +187,89 @@ void place_armour(const Section& dem, Scene& scene, int shape, const FixedSphere
     place_blocks(scene.placed, plan, mound);
 }
 
+/// Notes mistakes about placed blocks where the scene speaks of them: at the `[[dem.block]]` table of a
+/// single block, else at a key of `[dem.blocks]`.
+class PlacementJudge {
+ public:
+    PlacementJudge(const Section& dem, const Scene& scene, std::size_t placed_singly)
+        : dem_(dem), scene_(scene), placed_singly_(placed_singly) {}
+
+    /// Stops at the first kind of mistake: a block beside the mound, inside it, or in another.
+    void judge() const {
+        if (!stand_over_the_mound() || !stand_above_the_mound()) return;
+        const double allowed = scene_.step.element_overlap_allowed * scene_.element.diameter;
+        const auto clash = deepest_overlap(scene_.placed, scene_.surroundings);
+        if (clash.depth > allowed)
+            problem(clash.block, "origin",
+                    fmt::format("block {} starts {:.2g} m deep in {}; at most {:.2g} m", clash.block + 1,
+                                clash.depth, clash.partner, allowed));
+    }
+
+ private:
+    void problem(std::size_t block, const char* key_of_armour, const std::string& message) const {
+        const auto tables = dem_.tables("block");
+        if (block >= placed_singly_ && block - placed_singly_ < tables.size())
+            tables[block - placed_singly_].problem("position", message);
+        else
+            dem_.table("blocks").problem(key_of_armour, message);
+    }
+
+    /// A block at rest with no mound and no floor under it would fall for ever.
+    bool stand_over_the_mound() const {
+        if (scene_.mound.empty()) return true;
+        for (const auto& plane : scene_.surroundings.planes)
+            if (plane.normal.dot(scene_.gravity) < -0.1 * scene_.gravity.norm()) return true;
+        for (std::size_t i = 0; i < scene_.placed.size(); ++i) {
+            const Vector& p = scene_.placed.position[i];
+            if (scene_.placed.is_fixed[i] || scene_.placed.velocity[i].norm() > 0 ||
+                std::isfinite(
+                    scene_.surroundings.fixed_spheres.highest_near(p.x(), p.y(), scene_.element.diameter)))
+                continue;
+            problem(
+                i, "origin",
+                fmt::format("block {} starts beside the mound (x = {:.4g}, y = {:.4g} m) with nothing below "
+                            "to hold it",
+                            i + 1, p.x(), p.y()));
+            return false;
+        }
+        return true;
+    }
+
+    bool stand_above_the_mound() const {
+        for (std::size_t i = 0; i < scene_.placed.size(); ++i) {
+            const Vector& p = scene_.placed.position[i];
+            const double top =
+                scene_.surroundings.fixed_spheres.highest_near(p.x(), p.y(), 0.75 * scene_.element.diameter);
+            if (scene_.placed.is_fixed[i] || p.z() >= top) continue;
+            problem(i, "level",
+                    fmt::format("block {} starts inside the mound: its centre is at z = {:.4g} m, the mound "
+                                "there reaches {:.4g} m",
+                                i + 1, p.z(), top + 0.5 * scene_.element.diameter));
+            return false;
+        }
+        return true;
+    }
+
+    const Section& dem_;
+    const Scene& scene_;
+    std::size_t placed_singly_;
+};
+
+/// Spheres that never move: those given one by one, and the mound's columns.
+void place_fixed_spheres(const Section& dem, Scene& scene, double block_height) {
+    std::vector<Vector> fixed =
+        vectors(dem.rows("fixed_spheres", "m", "centres of fixed spheres of diameter d", 3,
+                         std::vector<std::vector<double>>{}));
+    std::vector<Vector> columns;
+    scene.mound = read_mound(dem, scene, block_height, columns).profile;
+    fixed.insert(fixed.end(), columns.begin(), columns.end());
+    double largest = scene.element.diameter;
+    for (const auto& shape : scene.placed.shapes) largest = std::max(largest, shape.diameter);
+    const double reach = 0.5 * (largest + scene.element.diameter) + scene.step.skin;
+    if (scene.surroundings.period > 0) fixed = with_images(fixed, scene.surroundings.period, reach);
+    scene.surroundings.fixed_spheres = FixedSpheres(std::move(fixed), scene.element.diameter, reach);
+}
+
 }  // namespace
 
 void read_blocks(const SceneFile& file, Scene& scene) {
@@ -196,19 +282,7 @@ void read_blocks(const SceneFile& file, Scene& scene) {
         armour = read_armour(dem, book, scene);
         block_height = scene.placed.shapes[static_cast<std::size_t>(*armour)].height;
     }
-
-    std::vector<Vector> fixed =
-        vectors(dem.rows("fixed_spheres", "m", "centres of fixed spheres of diameter d", 3,
-                         std::vector<std::vector<double>>{}));
-    std::vector<Vector> columns;
-    read_mound(dem, scene, block_height, columns);
-    fixed.insert(fixed.end(), columns.begin(), columns.end());
-    double largest = scene.element.diameter;
-    for (const auto& shape : scene.placed.shapes) largest = std::max(largest, shape.diameter);
-    const double reach = 0.5 * (largest + scene.element.diameter) + scene.step.skin;
-    if (scene.surroundings.period > 0) fixed = with_images(fixed, scene.surroundings.period, reach);
-    scene.surroundings.fixed_spheres = FixedSpheres(std::move(fixed), scene.element.diameter, reach);
-
+    place_fixed_spheres(dem, scene, block_height);
     if (armour) place_armour(dem, scene, *armour, scene.surroundings.fixed_spheres);
     const std::size_t placed_singly = scene.placed.size();
     read_single_blocks(dem, book, scene);
@@ -220,35 +294,7 @@ void read_blocks(const SceneFile& file, Scene& scene) {
     scene.packing.longest = packing.number("longest", "s", "packing gives up after", Range::positive(), 5.0);
     scene.packing.speed =
         packing.number("speed", "m/s", "slower blocks have settled", Range::positive(), 1e-3);
-
-    for (std::size_t i = 0; i < scene.placed.size(); ++i) {
-        const Vector& p = scene.placed.position[i];
-        const double top =
-            scene.surroundings.fixed_spheres.highest_near(p.x(), p.y(), 0.75 * scene.element.diameter);
-        if (scene.placed.is_fixed[i] || p.z() >= top) continue;
-        const auto tables = dem.tables("block");
-        const std::string message = fmt::format(
-            "block {} starts inside the mound: its centre is at z = {:.4g} m, the mound there reaches {:.4g} "
-            "m",
-            i + 1, p.z(), top + 0.5 * scene.element.diameter);
-        if (i >= placed_singly)
-            tables[i - placed_singly].problem("position", message);
-        else
-            dem.table("blocks").problem("level", message);
-        return;
-    }
-
-    const double allowed = scene.step.element_overlap_allowed * scene.element.diameter;
-    if (const auto clash = deepest_overlap(scene.placed, scene.surroundings); clash.depth > allowed) {
-        const auto tables = dem.tables("block");
-        const std::size_t single = clash.block - std::min(clash.block, placed_singly);
-        const std::string message = fmt::format("block {} starts {:.2g} m deep in {}; at most {:.2g} m",
-                                                clash.block + 1, clash.depth, clash.partner, allowed);
-        if (clash.block >= placed_singly && single < tables.size())
-            tables[single].problem("position", message);
-        else
-            dem.table("blocks").problem("origin", message);
-    }
+    PlacementJudge(dem, scene, placed_singly).judge();
 }
 
 }  // namespace dem

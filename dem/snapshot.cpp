@@ -91,7 +91,7 @@ void store_contacts(const std::vector<Pair>& pairs, DataFile& file) {
             bodies.push_back(static_cast<std::int32_t>(number));
         bodies.push_back(pair.image);
         bodies.push_back(static_cast<std::int32_t>(pair.contacts.size()));
-        for (const Vector& sum : {pair.force, pair.torque_on_block, pair.offset})
+        for (const Vector& sum : {pair.last.force, pair.last.torque_on_block, pair.last.offset})
             sums.insert(sums.end(), sum.data(), sum.data() + 3);
         for (const auto& contact : pair.contacts) {
             spheres.push_back(static_cast<std::int32_t>(contact.a));
@@ -119,9 +119,9 @@ std::vector<Pair> contacts_from(const DataFile& file) {
         pair.block = static_cast<std::uint32_t>(bodies[4 * k]);
         pair.partner = static_cast<std::uint32_t>(bodies[4 * k + 1]);
         pair.image = bodies[4 * k + 2];
-        pair.force = Vector(sums.data() + 9 * k);
-        pair.torque_on_block = Vector(sums.data() + 9 * k + 3);
-        pair.offset = Vector(sums.data() + 9 * k + 6);
+        pair.last.force = Vector(sums.data() + 9 * k);
+        pair.last.torque_on_block = Vector(sums.data() + 9 * k + 3);
+        pair.last.offset = Vector(sums.data() + 9 * k + 6);
         for (std::int32_t c = 0; c < bodies[4 * k + 3]; ++c, ++next)
             pair.contacts.push_back({static_cast<std::uint32_t>(spheres.at(2 * next)),
                                      static_cast<std::uint32_t>(spheres.at(2 * next + 1)),

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 
 #include "common/errors.hpp"
+#include "common/parallel.hpp"
 #include "dem/motion.hpp"
 
 namespace dem {
@@ -29,13 +30,13 @@ Simulation::Simulation(Blocks placed, Surroundings surroundings, std::unique_ptr
 void Simulation::add_water(FluidProperties properties, std::variant<UniformWater, FlowGrid> motion) {
     auto water = std::make_unique<FluidLoads>(blocks, std::move(properties), std::move(motion));
     water_ = water.get();
-    loads_.push_back(std::move(water));
+    own_loads_.push_back(std::move(water));
 }
 
 void Simulation::mount_wires(Wires mounted) {
     wires = std::move(mounted);
-    loads_.push_back(std::make_unique<WireLoads>(wires));
-    loads_.back()->awake_changed(is_awake_);
+    link_loads_.push_back(std::make_unique<WireLoads>(wires));
+    link_loads_.back()->awake_changed(is_awake_);
 }
 
 void Simulation::add_sleeping(const SleepRules& rules) {
@@ -49,9 +50,11 @@ void Simulation::start(double t) {
     time_ = t;
     if (sleeping_) sleeping_->wake_all(blocks, t);
     find_awake();
-    for (const auto& load : loads_) load->sample(blocks, t, 0);
+    for (const auto& load : own_loads_) load->sample(blocks, t, 0);
     // Contacts as they are: a step of no length leaves their histories alone.
-    contact_model_->evaluate(blocks, surroundings_, pair_list_, active_, 0);
+    std::vector<PairForces> forces(active_.size());
+    contact_model_->evaluate(blocks, surroundings_, pair_list_, active_, 0, forces);
+    for (std::size_t k = 0; k < active_.size(); ++k) pair_list_.pairs()[active_[k]].last = forces[k];
     sum_all_forces();
     if (sleeping_) sleeping_->wake_all(blocks, t);  // once more: now the loads they rest under are known
 }
@@ -72,7 +75,8 @@ void Simulation::advance(double target) {
             common::check_for_interrupt();
             check_values();
             const double hold = dt * static_cast<double>(std::min(every, count - k));
-            for (const auto& load : loads_) load->sample(blocks, begin + dt * static_cast<double>(k), hold);
+            for (const auto& load : own_loads_)
+                load->sample(blocks, begin + dt * static_cast<double>(k), hold);
             if (sleeping_) {
                 sum_all_forces();  // of those asleep too; contacts are those of the last step
                 bool changed = false;
@@ -85,38 +89,38 @@ void Simulation::advance(double target) {
             time_ = k + 1 == count ? target : begin + dt * static_cast<double>(k + 1);
             continue;
         }
-        step(dt, k + 1 == count ? target : begin + dt * static_cast<double>(k + 1));
+        const bool a_look_follows = (k + 1) % every == 0 || k + 1 == count;
+        step(dt, k + 1 == count ? target : begin + dt * static_cast<double>(k + 1), a_look_follows);
     }
     check_values();
 }
 
-void Simulation::step(double dt, double t) {
+// Velocity Verlet in two sweeps over the blocks, so that what is known of a block passes through the caches
+// twice a step: blocks move and begin their sums; then pairs are added up in their order, and a block whose
+// pairs are all added is done with the step.
+void Simulation::step(double dt, double t, bool keep_forces) {
+    constexpr std::size_t chunk = 64;  // blocks that stay in the nearest cache between moving and loading
     pair_list_.begin_update();
-    for (const auto i : awake_) {
-        kick_half(blocks, i, 0.5 * dt);
-        drift(blocks, i, dt);
-        pair_list_.note_motion(i);
-    }
     time_ = t;
-    if (pair_list_.update()) find_active();
-    sum_forces(awake_, is_awake_, active_, dt);
-    double damping_power = 0;
-    for (const auto i : awake_) {
-        kick_half(blocks, i, 0.5 * dt);
-        blocks.update_angular_velocity(i);
-        // The mean velocity of the two kicks around this instant makes this the very energy that the dashpots
-        // take.
-        damping_power +=
-            damping_force_[i].dot(blocks.velocity[i]) + damping_torque_[i].dot(blocks.angular_velocity[i]);
+    for (std::size_t from = 0; from < awake_.size(); from += chunk) {
+        const std::span<const std::uint32_t> some(awake_.data() + from,
+                                                  std::min(chunk, awake_.size() - from));
+        for (const auto i : some) {
+            kick_half(blocks, i, 0.5 * dt);
+            drift(blocks, i, dt);
+            pair_list_.note_motion(i);
+        }
+        begin_sums(some);
+        for (const auto& load : own_loads_) load->add(blocks, some, is_awake_, time_);
     }
-    dissipated_ -= dt * damping_power;
-    for (const auto& load : loads_) load->account(blocks, awake_, dt);
+    if (pair_list_.update()) find_active();
+    for (const auto& load : link_loads_) load->add(blocks, awake_, is_awake_, time_);
+    add_contacts(dt, keep_forces);
     ++steps_;
     awake_block_steps_ += awake_.size();
 }
 
-void Simulation::sum_forces(const std::vector<std::uint32_t>& of, const std::vector<std::uint8_t>& is_wanted,
-                            const std::vector<std::uint32_t>& pairs_to_add, double dt) {
+void Simulation::begin_sums(std::span<const std::uint32_t> of) {
     for (const auto i : of) {
         blocks.force[i] =
             blocks.shape_of(i).mass * gravity_;  // (11), dry part: buoyancy comes with the water
@@ -124,55 +128,95 @@ void Simulation::sum_forces(const std::vector<std::uint32_t>& of, const std::vec
         damping_force_[i].setZero();
         damping_torque_[i].setZero();
     }
-    for (const auto& load : loads_) load->add(blocks, of, is_wanted, time_);
-    // Pairs in their order: every block adds its own up in the same order, whoever is listed and however many
-    // threads run. In portions that stay in the cache between their evaluation and their adding up.
-    constexpr std::size_t portion = 4096;
-    for (std::size_t from = 0; from < pairs_to_add.size(); from += portion) {
-        const std::span<const std::uint32_t> some(pairs_to_add.data() + from,
-                                                  std::min(portion, pairs_to_add.size() - from));
-        if (dt > 0) contact_model_->evaluate(blocks, surroundings_, pair_list_, some, dt);
-        for (const auto k : some) {
-            const Pair& pair = pair_list_.pairs()[k];
+}
+
+/// Evaluates and adds up all active pairs, and finishes the step of every block on the way. Pairs in their
+/// order: every block adds its own up in the same order, whoever is listed and however many threads run. In
+/// portions that stay in the cache between their evaluation and their adding up.
+void Simulation::add_contacts(double dt, bool keep_forces) {
+    constexpr std::size_t shortest_portion = 256, longest_portion = 4096;
+    // Threads share a portion: with few pairs in it they would wait for each other more than they work.
+    const std::size_t portion = omp_get_max_threads() > 1 ? longest_portion : shortest_portion;
+    double damping_power = 0;
+    std::size_t finished = 0;
+    for (std::size_t from = 0; from < active_.size(); from += portion) {
+        const std::span<const std::uint32_t> some(active_.data() + from,
+                                                  std::min(portion, active_.size() - from));
+        portion_.resize(std::max(portion_.size(), some.size()));
+        contact_model_->evaluate(blocks, surroundings_, pair_list_, some, dt, portion_);
+        for (std::size_t k = 0; k < some.size(); ++k) {
+            Pair& pair = pair_list_.pairs()[some[k]];
             if (pair.contacts.empty()) continue;
-            if (is_wanted[pair.block]) {
-                blocks.force[pair.block] += pair.force;
-                blocks.torque[pair.block] += pair.torque_on_block;
-                damping_force_[pair.block] += pair.damping_force;
-                damping_torque_[pair.block] += pair.damping_torque;
-            }
-            if (pair_list_.is_block(pair.partner) && is_wanted[pair.partner]) {
-                blocks.force[pair.partner] -= pair.force;
-                blocks.torque[pair.partner] += pair.offset.cross(pair.force) - pair.torque_on_block;
-                damping_force_[pair.partner] -= pair.damping_force;
-                damping_torque_[pair.partner] += pair.offset.cross(pair.damping_force) - pair.damping_torque;
-            }
-            if (dt > 0) {
-                dissipated_ += pair.dissipated;
-                if (pair.largest_overlap > rules_.overlap_noted || pair.largest_overlap > largest_overlap_)
-                    note_overlap(pair);
-            }
+            const PairForces& forces = portion_[k];
+            add_pair(pair, forces, is_awake_);
+            dissipated_ += forces.dissipated;
+            if (forces.largest_overlap > rules_.overlap_noted || forces.largest_overlap > largest_overlap_)
+                note_overlap(pair, forces.largest_overlap);
+            if (keep_forces) pair.last = forces;
         }
+        // The pairs to come belong to this block or later ones: the blocks before it have all their forces.
+        const std::size_t next = from + some.size();
+        const std::uint32_t bound = next < active_.size() ? pair_list_.keys()[active_[next]].block
+                                                          : std::numeric_limits<std::uint32_t>::max();
+        const std::size_t first = finished;
+        while (finished < awake_.size() && awake_[finished] < bound) ++finished;
+        damping_power += finish_step({awake_.data() + first, finished - first}, dt);
+    }
+    damping_power += finish_step({awake_.data() + finished, awake_.size() - finished}, dt);
+    dissipated_ -= dt * damping_power;
+}
+
+void Simulation::add_pair(const Pair& pair, const PairForces& forces,
+                          const std::vector<std::uint8_t>& is_wanted) {
+    if (is_wanted[pair.block]) {
+        blocks.force[pair.block] += forces.force;
+        blocks.torque[pair.block] += forces.torque_on_block;
+        damping_force_[pair.block] += forces.damping_force;
+        damping_torque_[pair.block] += forces.damping_torque;
+    }
+    if (pair_list_.is_block(pair.partner) && is_wanted[pair.partner]) {
+        blocks.force[pair.partner] -= forces.force;
+        blocks.torque[pair.partner] += forces.offset.cross(forces.force) - forces.torque_on_block;
+        damping_force_[pair.partner] -= forces.damping_force;
+        damping_torque_[pair.partner] += forces.offset.cross(forces.damping_force) - forces.damping_torque;
     }
 }
 
-void Simulation::sum_all_forces() {
-    std::vector<std::uint32_t> all(pair_list_.pairs().size());
-    std::iota(all.begin(), all.end(), 0u);
-    std::vector<std::uint8_t> is_movable(blocks.size(), 0);
-    for (const auto i : movable_) is_movable[i] = 1;
-    sum_forces(movable_, is_movable, all, 0);
+/// The second half of the kick of blocks whose sums are complete; returns the power of their dashpots, W.
+double Simulation::finish_step(std::span<const std::uint32_t> some, double dt) {
+    double damping_power = 0;
+    for (const auto i : some) {
+        kick_half(blocks, i, 0.5 * dt);
+        blocks.update_angular_velocity(i);
+        // The mean velocity of the two kicks around this instant makes this the very energy that the dashpots
+        // take.
+        damping_power +=
+            damping_force_[i].dot(blocks.velocity[i]) + damping_torque_[i].dot(blocks.angular_velocity[i]);
+    }
+    for (const auto& load : own_loads_) load->account(blocks, some, dt);
+    return damping_power;
 }
 
-void Simulation::note_overlap(const Pair& pair) {
-    largest_overlap_ = std::max(largest_overlap_, pair.largest_overlap);
-    if (pair.largest_overlap > rules_.overlap_noted) ++deep_contact_steps_;
-    if (pair.largest_overlap > rules_.overlap_limit)
+/// The forces on all blocks, sleepers too, from the contacts as they were kept last.
+void Simulation::sum_all_forces() {
+    std::vector<std::uint8_t> is_movable(blocks.size(), 0);
+    for (const auto i : movable_) is_movable[i] = 1;
+    begin_sums(movable_);
+    for (const auto& load : own_loads_) load->add(blocks, movable_, is_movable, time_);
+    for (const auto& load : link_loads_) load->add(blocks, movable_, is_movable, time_);
+    for (const auto& pair : pair_list_.pairs())
+        if (!pair.contacts.empty()) add_pair(pair, pair.last, is_movable);
+}
+
+void Simulation::note_overlap(const Pair& pair, double overlap) {
+    largest_overlap_ = std::max(largest_overlap_, overlap);
+    if (overlap > rules_.overlap_noted) ++deep_contact_steps_;
+    if (overlap > rules_.overlap_limit)
         throw common::RunError(
             fmt::format("t = {:.5f} s: block {} is {:.2g} m deep in {}, past the limit of {:.2g} m; a "
                         "shorter dem.time_step or stiffer "
                         "spheres are needed",
-                        time_, pair.block + 1, pair.largest_overlap,
+                        time_, pair.block + 1, overlap,
                         pair_list_.is_block(pair.partner) ? fmt::format("block {}", pair.partner + 1)
                         : pair_list_.is_fixed_spheres(pair.partner) ? std::string("the fixed spheres")
                                                                     : std::string("a plane"),
@@ -208,7 +252,8 @@ void Simulation::find_awake() {
         awake_.push_back(i);
         is_awake_[i] = 1;
     }
-    for (const auto& load : loads_) load->awake_changed(is_awake_);
+    for (const auto& load : own_loads_) load->awake_changed(is_awake_);
+    for (const auto& load : link_loads_) load->awake_changed(is_awake_);
     find_active();
 }
 

@@ -86,11 +86,13 @@ class Simulation {
     const Surroundings& surroundings() const { return surroundings_; }
 
  private:
-    void step(double dt, double t);
-    void sum_forces(const std::vector<std::uint32_t>& of, const std::vector<std::uint8_t>& is_wanted,
-                    const std::vector<std::uint32_t>& pairs_to_add, double dt);
+    void step(double dt, double t, bool keep_forces);
+    void begin_sums(std::span<const std::uint32_t> of);
+    void add_contacts(double dt, bool keep_forces);
+    void add_pair(const Pair& pair, const PairForces& forces, const std::vector<std::uint8_t>& is_wanted);
+    double finish_step(std::span<const std::uint32_t> some, double dt);
     void sum_all_forces();
-    void note_overlap(const Pair& pair);
+    void note_overlap(const Pair& pair, double overlap);
     void check_values() const;
     void find_awake();
     void find_active();
@@ -100,13 +102,15 @@ class Simulation {
     Vector gravity_;
     StepRules rules_;
     PairList pair_list_;
-    std::vector<std::unique_ptr<Load>> loads_;
+    std::vector<std::unique_ptr<Load>> own_loads_;   ///< act on each block by itself
+    std::vector<std::unique_ptr<Load>> link_loads_;  ///< act between blocks
     FluidLoads* water_ = nullptr;
     std::unique_ptr<Sleeping> sleeping_;
     std::vector<std::uint32_t> movable_, awake_;  ///< blocks
     std::vector<std::uint8_t> is_awake_;
     std::vector<Vector> damping_force_, damping_torque_;  ///< the dashpots' share of the sums
     std::vector<std::uint32_t> active_;                   ///< pairs that may touch, with a block awake
+    std::vector<PairForces> portion_;                     ///< of the pairs at hand
     double time_ = 0, dissipated_ = 0, largest_overlap_ = 0;
     std::uint64_t steps_ = 0, awake_block_steps_ = 0, deep_contact_steps_ = 0;
 };

@@ -28,7 +28,7 @@ FluidLoad sample_fluid_load(const Blocks& blocks, std::size_t block, const Motio
             sample.velocity - blocks.velocity[block] - blocks.angular_velocity[block].cross(arm);
         const double speed = relative.norm();
         // C_D |u_r| of eq. (12), finite at zero relative speed.
-        const double slope = drag * sample.wet * (0.4 * speed + viscous);
+        const double slope = drag * sample.wet * (water.drag_coefficient * speed + viscous);
         const Vector force =
             slope * relative + sample.wet * (inertia * sample.acceleration + buoyancy);  // (10), (11)
         load.force += force;
@@ -36,7 +36,9 @@ FluidLoad sample_fluid_load(const Blocks& blocks, std::size_t block, const Motio
         load.wet += sample.wet;
         load.water_speed += sample.wet * sample.velocity.norm();
         isotropic += slope;
-        if (speed > 0) load.drag_slope += (drag * sample.wet * 0.4 / speed * relative) * relative.transpose();
+        if (speed > 0)
+            load.drag_slope +=
+                (drag * sample.wet * water.drag_coefficient / speed * relative) * relative.transpose();
     }
     load.drag_slope.diagonal().array() += isotropic;
     if (load.wet > 0) load.water_speed /= load.wet;

@@ -2,6 +2,7 @@
 import os
 import tempfile
 
+import h5py
 import numpy as np
 
 from dem_flow import standing_wave, write_flow
@@ -27,8 +28,8 @@ psi = 0.3
 """
 
 
-def refused(what, text, *words, arguments=()):
-    r = run(text, *arguments)
+def refused(what, text, *words, arguments=(), verb="run"):
+    r = run(text, *arguments, verb=verb)
     lines = [line for line in r.message.strip().splitlines() if line]
     good = r.status == 2 and all(any(w in line for line in lines) for w in words) and not os.path.exists(os.path.join(r.folder, "run.json"))
     check.true(what, good, f"exit {r.status}: {r.message.strip()}")
@@ -55,6 +56,27 @@ refused("blocks inside each other", GOOD.split("[dem.blocks]")[0] +
 refused("block inside the mound", put('[[dem.block]]\nshape = "sphere"\nposition = [0.05, 0.05, -0.25]\n'), "starts inside the mound", "position")
 refused("effect that cannot be on", put('[effects]\nwires = "on"\n'), "effects.wires", "no links")
 
+refused("blocks beside the mound", put("", "origin = [0.15, 0.025]", "origin = [0.30, 0.025]"), "dem.blocks.origin", "beside the mound", "scene.toml:10")
+refused("check of blocks beside the mound", put("", "origin = [0.15, 0.025]", "origin = [0.30, 0.025]"), "dem.blocks.origin", "beside the mound", verb="check")
+refused("single block beside the mound", put('[[dem.block]]\nshape = "sphere"\nposition = [0.5, 0.05, -0.1]\n'), "beside the mound", "position", "scene.toml:19")
+refused("no whole number of rows", put("", "rows = 2", "rows = 2.5"), "dem.blocks.rows")
+refused("no rows at all", put("", "rows = 2", "rows = 0"), "dem.blocks.rows")
+refused("number that is not finite", put("", "width = 0.1", "width = nan"), "dem.width")
+refused("text for a number", put("", "width = 0.1", 'width = "wide"'), "dem.width")
+refused("negative roughness", put("", "roughness = 0.004", "roughness = -0.004"), "dem.mound.roughness")
+refused("mound of too many columns", put("", "[[0.0, -0.2], [0.2, -0.2]]", "[[0.0, -0.2], [90000.0, -0.2]]"), "dem.mound.profile", "columns")
+refused("time step of zero", put("", "width = 0.1", "width = 0.1\ntime_step = 0.0"), "dem.time_step")
+refused("Poisson ratio that cannot be", put("", "width = 0.1", "width = 0.1\npoisson_ratio = 0.5"), "dem.poisson_ratio")
+refused("unknown contact law", put("", "width = 0.1", 'width = 0.1\ncontact = "herz"'), "dem.contact", "hertz")
+refused("negative psi", put("", "psi = 0.3", "psi = -0.3"), "wires.psi")
+refused("end before begin", put("", "end = 0.2", "end = -0.2"), "time.end")
+refused("fewer wires than none", put("[[wires.link]]\nblocks = [1, 2]\nwires = -1\n"), "wires.link", "wires")
+refused("link with a third block", put("[[wires.link]]\nblocks = [1, 2, 3]\n"), "blocks")
+refused("span of columns the wrong way round", put("[[wires.along]]\nrows = [1]\ncolumns = [2, 1]\n"), "wires.along", "columns")
+refused("orientation of no length", put('[[dem.block]]\nshape = "sphere"\nposition = [0.05, 0.05, -0.1]\norientation = [0.0, 0.0, 0.0, 0.0]\n'), "orientation")
+refused("plane without a normal", put("", "width = 0.1", "width = 0.1\nplanes = [{ point = [0.0, 0.0, -1.0], normal = [0.0, 0.0, 0.0] }]"), "normal")
+refused("broken TOML", put("[[wires.link"), "scene.toml:17")
+
 far = tempfile.mkdtemp(prefix="tsunagi_flow_")
 write_flow(far, standing_wave(0.05, 1.2, 0.3, 1.0), np.linspace(0.12, 1.0, 20), np.linspace(-0.3, 0.2, 11), 0.0, 0.2, 0.1, 0.02)
 refused("flow that does not cover the blocks", GOOD, "does not cover block", arguments=("--flow", far))
@@ -62,6 +84,21 @@ short = tempfile.mkdtemp(prefix="tsunagi_flow_")
 write_flow(short, standing_wave(0.05, 1.2, 0.3, 1.0), np.linspace(0.0, 1.0, 20), np.linspace(-0.3, 0.2, 11), 0.0, 0.1, 0.1, 0.02)
 refused("flow that ends before the time asked for", GOOD, "the flow ends at t = 0.1 s", arguments=("--flow", short))
 refused("flow folder that is not there", GOOD, "no such folder", arguments=("--flow", "/nonexistent"))
+
+other = tempfile.mkdtemp(prefix="tsunagi_flow_")
+write_flow(other, standing_wave(0.05, 1.2, 0.3, 1.0), np.linspace(0.0, 1.0, 20), np.linspace(-0.3, 0.2, 11), 0.0, 0.2, 0.1, 0.02)
+with h5py.File(os.path.join(other, "geometry.h5"), "w") as f:
+    f["/structure/0"] = np.array([[-0.5, -0.3], [0.0, -0.15], [1.0, -0.15], [1.0, -0.3]])
+    f["/structure/0"].attrs.create("units", b"m", dtype="S1")
+refused("flow over another mound", GOOD, "flow of another scene", "dem.mound.profile", arguments=("--flow", other))
+cut = os.path.join(other, "window_000000.h5")
+os.remove(os.path.join(other, "geometry.h5"))
+with open(cut, "rb") as f:
+    content = f.read()
+with open(cut, "wb") as f:
+    f.write(content[: len(content) // 2])
+refused("truncated window of the flow", GOOD, "window_000000.h5", arguments=("--flow", other))
+refused("state file that is not there", GOOD, "nowhere.h5", arguments=("--from", "/nonexistent/nowhere.h5"))
 
 packed = run(GOOD, verb="pack")
 check.true("packing for the state tests", packed.status == 0, packed.message)
@@ -72,6 +109,11 @@ with open(state, "rb") as f:
 with open(state + ".cut", "wb") as f:
     f.write(content[: len(content) // 2])
 refused("truncated state", GOOD, "state.h5.cut", arguments=("--from", state + ".cut"))
+
+with open(state + ".text", "w") as f:
+    f.write("no HDF5 at all")
+refused("state that is no HDF5 file", GOOD, "state.h5.text", arguments=("--from", state + ".text"))
+refused("restart time without a window", put("[dem.restart]\ntime = 0.05\n"), "restart", arguments=("--from", state))
 
 # What an earlier run wrote survives a bad second call.
 done = run(GOOD)

@@ -125,7 +125,12 @@ TEST(FixedSpheres, FindsWhatBruteForceFinds) {
     for (int k = 0; k < 500; ++k) {
         const Vector point(1.2 * place(random), 1.2 * place(random), 1.2 * place(random));
         std::vector<std::uint32_t> found, expected;
-        fixed.find_near(point, 0.0095, found);
+        std::vector<dem::FixedSpheres::Near> near;
+        fixed.find_near(point, 0.0095, near);
+        for (const auto& one : near) {
+            found.push_back(one.sphere);
+            EXPECT_EQ(one.centre, centres[one.sphere]);
+        }
         for (std::uint32_t i = 0; i < centres.size(); ++i)
             if ((centres[i] - point).norm() < 0.0095) expected.push_back(i);
         EXPECT_EQ(found, expected);
