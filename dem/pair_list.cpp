@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <tuple>
 #include <unordered_map>
 
@@ -34,6 +35,7 @@ PairList::PairList(const Blocks& blocks, const Surroundings& surroundings, doubl
     for (std::size_t i = 0; i < blocks.size(); ++i) smallest = std::min(smallest, blocks.shape_of(i).radius);
     // Wide enough to live through a fall of a third of a block, narrow enough to list neighbours only.
     wide_skin_ = std::max(2 * skin, 0.3 * smallest);
+    memory_ = std::make_unique<std::pmr::monotonic_buffer_resource>();
     rebuild();
 }
 
@@ -42,6 +44,30 @@ void PairList::rebuild() {
     narrow_position_ = blocks_.position;
     narrow_orientation_ = blocks_.orientation;
     for (std::size_t k = 0; k < pairs_.size(); ++k) refresh(k);
+    lay_in_order();
+}
+
+// Every step goes through the pairs in their order. Where each of them had its own few pieces of the heap,
+// ten thousand blocks took four times as long a step: none of those pieces was in a cache, or its page in the
+// table of pages.
+void PairList::lay_in_order() {
+    constexpr std::size_t first_piece = 1 << 16;  // bytes
+    auto memory = std::make_unique<std::pmr::monotonic_buffer_resource>(first_piece);
+    for (auto& pair : pairs_) {
+        Pair laid(memory.get());
+        laid.block = pair.block;
+        laid.partner = pair.partner;
+        laid.image = pair.image;
+        laid.candidates.assign(pair.candidates.begin(), pair.candidates.end());
+        laid.centres.assign(pair.centres.begin(), pair.centres.end());
+        laid.contacts.reserve(pair.candidates.size());
+        laid.contacts.assign(pair.contacts.begin(), pair.contacts.end());
+        laid.last = pair.last;
+        std::destroy_at(&pair);
+        std::construct_at(&pair, std::move(laid));
+    }
+    memory_ = std::move(memory);
+    refreshed_ = 0;
 }
 
 bool PairList::refresh(std::size_t index) {
@@ -49,6 +75,8 @@ bool PairList::refresh(std::size_t index) {
     find_candidates(pair);
     const std::uint8_t has_candidates = !pair.candidates.empty();
     if (!has_candidates) pair.contacts.clear();
+    pair.contacts.reserve(pair.candidates.size());
+    ++refreshed_;
     const bool changed = has_candidates != keys_[index].has_candidates;
     keys_[index].has_candidates = has_candidates;
     return changed;
@@ -68,6 +96,8 @@ bool PairList::update() {
         narrow_orientation_[block] = blocks_.orientation[block];
         for (const auto entry : pairs_of(block)) changed = refresh(entry >> 1) || changed;
     }
+    // Lists that grew have moved to the end of the memory: in order again before many have.
+    if (refreshed_ > pairs_.size()) lay_in_order();
     return changed;
 }
 
@@ -101,7 +131,7 @@ void PairList::find_pairs() {
 
     std::vector<Pair> found;
     const auto add = [&](std::uint32_t block, std::uint32_t partner, std::int32_t image) {
-        Pair pair;
+        Pair pair(memory_.get());
         pair.block = block;
         pair.partner = partner;
         pair.image = image;

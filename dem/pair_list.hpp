@@ -10,6 +10,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <memory_resource>
 #include <vector>
 
 #include "dem/blocks.hpp"
@@ -44,12 +46,15 @@ struct PairForces {
 /// A block and a partner: a later block, the fixed spheres (number blocks.size()), or a plane (the numbers
 /// after it).
 struct Pair {
-    std::uint32_t block, partner;
-    std::int32_t image;  ///< the partner stands this many widths of the periodic box further in y
-    std::vector<Candidate> candidates;
-    std::vector<Vector>
-        centres;  ///< of the fixed spheres among the candidates, m: one piece of memory instead of many
-    std::vector<Contact> contacts;
+    explicit Pair(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+        : candidates(memory), centres(memory), contacts(memory) {}
+
+    std::uint32_t block = 0, partner = 0;
+    std::int32_t image = 0;  ///< the partner stands this many widths of the periodic box further in y
+    std::pmr::vector<Candidate> candidates;
+    std::pmr::vector<Vector> centres;  ///< of the fixed spheres among the candidates, m
+    std::pmr::vector<Contact>
+        contacts;     ///< room for all candidates is kept, so that evaluation allocates nothing
     PairForces last;  ///< of the last step before a look at the water, a sample or a saved state
 };
 
@@ -108,6 +113,7 @@ class PairList {
     bool refresh(std::size_t pair);
     void find_block_candidates(Pair& pair);
     void find_incidence();
+    void lay_in_order();
     /// The farthest point goes at most |dx| + 2 R sin(angle/2), and |vec(q0* q)| is sin(angle/2).
     double moved_since(std::size_t block, const std::vector<Vector>& position,
                        const std::vector<Quaternion>& orientation) const {
@@ -119,6 +125,8 @@ class PairList {
     const Blocks& blocks_;
     const Surroundings& surroundings_;
     double skin_, wide_skin_;
+    std::unique_ptr<std::pmr::monotonic_buffer_resource> memory_;  // of what the pairs hold, in their order
+    std::size_t refreshed_ = 0;                                    // pairs since it was laid out
     std::vector<Pair> pairs_;
     std::vector<Key> keys_;  // in step with pairs_
     std::vector<std::uint32_t> incidence_, incidence_begin_;

@@ -1,4 +1,5 @@
 """Effects: each one's absence is wrong where it is needed, costs nothing where it is not, and saves something."""
+import re
 import tempfile
 
 import numpy as np
@@ -50,6 +51,12 @@ check.below("wire_breaking off: nothing breaks, they are held", gap(run(apart.fo
 no_links = apart.format(psi=0.3).split("[[wires.link]]")[0]
 check.true("wires: auto without links equals off", np.array_equal(run(no_links).series("/blocks/position"), run(no_links + off("wires")).series("/blocks/position")))
 
+# Where an effect is not needed, the scene as auto takes it is the scene with the effect on, to the bit.
+smooth = slope.replace("dry = true", "dry = true\nfriction = 0.0")
+check.true("tangential_history: auto without friction equals off", np.array_equal(run(smooth).series("/blocks/position"), run(smooth + off("tangential_history")).series("/blocks/position")))
+whole = apart.format(psi=10.0)
+check.true("wire_breaking: where no wire breaks, on equals off", np.array_equal(run(whole).series("/blocks/position"), run(whole + off("wire_breaking")).series("/blocks/position")))
+
 # sleeping and still windows: same damage, fewer steps. Armour under a standing wave, over mound seeds.
 ARMOUR = """[time]
 end = 3.0
@@ -91,4 +98,22 @@ check.below("sleeping: block steps left", steps["on"] / steps["off"], 0.98)
 still = ARMOUR.format(seed=1, sleeping="on").replace("end = 3.0", "end = 20.0").replace("window = 1.0", "window = 5.0")
 r = run(still)
 check.below("still water: blocks are awake for a share of 20 s", r.figure("awake_block_steps") / (12 * 20 / r.figure("time_step")), 0.1)
+every_step = run(still.replace("[effects]", '[effects]\nstill_windows = "off"'))
+check.true("still_windows: on equals off", np.array_equal(r.series("/blocks/position"), every_step.series("/blocks/position")))
+
+# What an effect saves, in work counted: steps, block steps, wires.
+check.below("still_windows: share of the looks' steps left", r.figure("steps") / (20 / r.figure("time_step")), 0.1)
+check.true("wires off: none are there", run(whole + off("wires")).figure("wires.count") == 0)
+
+# The forecast is of the work that comes: contacts and wires of a step, and steps.
+linked = ARMOUR.format(seed=1, sleeping="off").replace("end = 3.0", "end = 0.5").replace("window = 1.0", "window = 0.5") + "[[wires.along]]\nrows = [1, 2, 3]\n"
+words = run(linked, verb="check").message
+done = run(linked)
+contacts, wires = (int(re.search(rf"(\d+) {what}", words.split("a step: ")[1]).group(1)) for what in ("contacts", "wires"))
+steps = float(re.search(r"steps: at most ([\d.e+]+)", words).group(1))
+print(f"forecast: {contacts} contacts, {wires} wires, {steps:.0f} steps; run: {done.figure('contacts'):.0f}, {done.figure('wires.count'):.0f}, {done.figure('steps'):.0f}")
+# Within a factor of 2, as asked of a forecast; the run's steps include packing, which the forecast leaves out.
+check.below("forecast of contacts", max(contacts / done.figure("contacts"), done.figure("contacts") / contacts), 2.0)
+check.true("forecast of wires", wires == done.figure("wires.count"))
+check.below("forecast of steps", max(steps / done.figure("steps"), done.figure("steps") / steps), 2.0)
 check.end()
