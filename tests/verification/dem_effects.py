@@ -109,8 +109,8 @@ check.true("wires off: none are there", run(whole + off("wires")).figure("wires.
 linked = ARMOUR.format(seed=1, sleeping="off").replace("end = 3.0", "end = 0.5").replace("window = 1.0", "window = 0.5") + "[[wires.along]]\nrows = [1, 2, 3]\n"
 words = run(linked, verb="check").message
 done = run(linked)
-contacts, wires = (int(re.search(rf"(\d+) {what}", words.split("a step: ")[1]).group(1)) for what in ("contacts", "wires"))
-steps = float(re.search(r"steps: at most ([\d.e+]+)", words).group(1))
+contacts, wires = (int(re.search(rf"(\d+) {what}", words.split("a step ")[1]).group(1)) for what in ("contacts", "wires"))
+steps = float(re.search(r"steps +at most (\d+)", words).group(1))
 print(f"forecast: {contacts} contacts, {wires} wires, {steps:.0f} steps; run: {done.figure('contacts'):.0f}, {done.figure('wires.count'):.0f}, {done.figure('steps'):.0f}")
 # Within a factor of 2, as asked of a forecast; the run's steps include packing, which the forecast leaves out.
 check.below("forecast of contacts", max(contacts / done.figure("contacts"), done.figure("contacts") / contacts), 2.0)

@@ -5,7 +5,8 @@
 What the paper's scene leaves open (or gives, for comparison) is varied about the scene as it stands, on flows of draft accuracy, over mound
 seeds: wave height, how rough the mound is and over which length its heights are one, friction, drag and added mass of an element, and of the
 wires their number a side, their law and their stiffness. Every condition is run without wires and with the layout of case 1.
-Writes sensitivity_dem.csv (a row a run), sensitivity_dem_summary.csv (a row a condition: mean over seeds) and sensitivity_dem.png.
+Then half of the width is wired and compared with its mirror image.
+Writes sensitivity_dem.csv (a row a run), sensitivity_dem_summary.csv (a row a condition: mean over seeds), sensitivity_dem_half.csv and sensitivity_dem.png.
 Finished runs are left alone, so that a study that was stopped goes on.
 """
 import argparse
@@ -27,6 +28,7 @@ arguments.add_argument("--bin", type=pathlib.Path, required=True)
 arguments.add_argument("--out", type=pathlib.Path, required=True)
 arguments.add_argument("--scene", type=pathlib.Path, default=here.parent / "scenes" / "gotoh2009.toml")
 arguments.add_argument("--seeds", type=int, default=3)
+arguments.add_argument("--half-seeds", type=int, default=8, help="of the comparison of a wired half with its mirror image")
 arguments.add_argument("--conditions", default="", help="run only these, separated by ';'")
 arguments.add_argument("--smoke", action="store_true")
 options = arguments.parse_args()
@@ -72,6 +74,9 @@ CONDITIONS = {
     "1.5, 1 wire": ("height x 1.5", {}, 1),
     "1.5, 1 progressive wire": ("height x 1.5", {"wires.law": "progressive"}, 1),
     "1.5, 1 progressive wire, 3 d": ("height x 1.5", {"wires.law": "progressive", "dem.mound.patch": 0.024}, 1),
+    # Do sleepers change who moves, beyond what any small change does to motion that is chaotic?
+    "sleeping off": ("height x 1.0", {"effects.sleeping": "off"}, 0),
+    "friction + 1e-7": ("height x 1.0", {"dem.friction": 0.5770001}, 0),
     # The near field itself: a caisson that nothing goes over, and a mound nearer to the surface.
     "no overtopping": ("no overtopping", {}, 0),
     "mound at -0.16 m": ("mound at -0.16 m", HIGH_MOUND, 0),
@@ -144,7 +149,7 @@ def measure(folder):
     row, column = block // 20 + 1, block % 20 + 1
     sea_side = row >= 4
     linked = sea_side & (column >= 5) & (column <= 18)  # carry wires in case 1
-    middle, ends = (row == 5) & (column >= 9) & (column <= 14), (row == 5) & ((column <= 3) | (column >= 18))
+    middle, ends = (row == 5) & (column >= 10) & (column <= 13), (row == 5) & linked & ((column <= 6) | (column >= 17))  # of the mat
     moved = total > 0.25 * BLOCK_LENGTH
     # A block is carried little by little when no single wave period does the most of its way.
     period = max(1, int(round(1.65 / numpy.median(numpy.diff(time)))))
@@ -176,6 +181,35 @@ for condition in CONDITIONS:
         f" bulge {numpy.mean([r['bulge_mm'] for r in last if r['layout'] == name]):5.1f} T {max(r['largest_tension_N'] for r in last if r['layout'] == name):5.2f} N"
         f" broken {sum(r['broken_wires'] for r in last if r['layout'] == name)}" for name in ("no wires", "case 1")), flush=True)
 
+# Like with like: half of the width is wired, the other half, its mirror image, is not.
+WIRED = (3, 10)  # columns; mirrored: 18 to 11
+half_rows = []
+for flow in () if options.conditions and "half" not in options.conditions else ("height x 1.0", "height x 1.2"):
+    layout = work / "half.toml"
+    layout.write_text(f"[[wires.along]]\nrows = [4, 5]\ncolumns = [{WIRED[0]}, {WIRED[1]}]\n")
+    for seed in range(1, (1 if options.smoke else options.half_seeds) + 1):
+        folder = work / f"half_{name_of(flow)}_{seed}"
+        if not done(folder):
+            call("dem", "run", options.scene, "--flow", flow_of(flow), "--wires", layout, "--out", folder, "--quiet", "--set", "accuracy=draft",
+                 "--set", f"dem.mound.seed={seed}", "--set", f"time.end={26.0 if options.smoke else END}", "--set", "dem.output_interval=0.25")
+        _, position = run_folder.read_series(folder, "/blocks/position")
+        offshore = (position[0] - position[-1])[60:100, 0].reshape(2, 20)
+        wired, bare = offshore[:, WIRED[0] - 1:WIRED[1]], offshore[:, 20 - WIRED[1]:21 - WIRED[0]]
+        half_rows.append({"flow": flow, "seed": seed, "wired_offshore_mm": 1e3 * wired.mean(), "mirrored_unwired_offshore_mm": 1e3 * bare.mean(),
+                          "wired_beyond_quarter": int((numpy.abs(wired) > 0.25 * BLOCK_LENGTH).sum()), "unwired_beyond_quarter": int((numpy.abs(bare) > 0.25 * BLOCK_LENGTH).sum())})
+    last = [row for row in half_rows if row["flow"] == flow]
+    print(f"half wired, {flow}: wired {numpy.mean([r['wired_offshore_mm'] for r in last]):.2f} mm, its mirror image unwired "
+          f"{numpy.mean([r['mirrored_unwired_offshore_mm'] for r in last]):.2f} mm; farther unwired in "
+          f"{sum(r['mirrored_unwired_offshore_mm'] > r['wired_offshore_mm'] for r in last)} of {len(last)} seeds; blocks beyond a quarter: "
+          f"{sum(r['wired_beyond_quarter'] for r in last)} wired, {sum(r['unwired_beyond_quarter'] for r in last)} unwired", flush=True)
+if half_rows:
+    with open(options.out / "sensitivity_dem_half.csv", "w", newline="") as file:
+        table = csv.DictWriter(file, fieldnames=list(half_rows[0]))
+        table.writeheader()
+        table.writerows(half_rows)
+
+if not rows:
+    sys.exit()
 with open(options.out / "sensitivity_dem.csv", "w", newline="") as file:
     table = csv.DictWriter(file, fieldnames=list(rows[0]))
     table.writeheader()
