@@ -112,7 +112,8 @@ void fetch_ahead(const PairList& list, std::span<const std::uint32_t> active, st
     constexpr std::size_t line = 64;
     if (k + far >= active.size()) return;
     const auto* pair = reinterpret_cast<const char*>(&list.pairs()[active[k + far]]);
-    for (std::size_t byte = 0; byte < sizeof(Pair) - sizeof(PairForces); byte += line) __builtin_prefetch(pair + byte);
+    for (std::size_t byte = 0; byte < sizeof(Pair) - sizeof(PairForces); byte += line)
+        __builtin_prefetch(pair + byte);
     const Pair& next = list.pairs()[active[k + near]];
     const auto* centres = reinterpret_cast<const char*>(next.centres.data());
     for (std::size_t byte = 0; byte < next.centres.size() * sizeof(Vector); byte += line)
