@@ -68,9 +68,20 @@ std::unique_ptr<IncidentWave> incident_wave(const Scene& scene) {
                          .velocity_phase = 0.0}},
                     waves.position, waves.period / 100.0);
             }
-        case WaveKind::irregular:
-            return std::make_unique<ComponentWave>(sea_components(waves.sea, dispersion, waves.depth),
-                                                   waves.position, waves.period / 100.0);
+        case WaveKind::irregular: {
+            auto components = sea_components(waves.sea, dispersion, waves.depth);
+            std::optional<BoundWaves> bound;
+            if (waves.has_bound_waves) {
+                std::vector<double> wave_numbers, amplitudes;
+                for (const WaveComponent& c : components) {
+                    wave_numbers.push_back(c.wave_number);
+                    amplitudes.push_back(c.elevation_amplitude);
+                }
+                bound = bound_waves(dispersion, waves.depth, wave_numbers, amplitudes);
+            }
+            return std::make_unique<ComponentWave>(std::move(components), waves.position,
+                                                   waves.period / 100.0, std::move(bound));
+        }
         case WaveKind::series:
             return std::make_unique<ComponentWave>(
                 record_components(waves.record_time, waves.record_elevation, waves.record_velocity,

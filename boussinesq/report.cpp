@@ -109,6 +109,8 @@ Report::Report(const std::filesystem::path& folder, const common::SceneFile& fil
                                    "(Ursell number below 26)"
                                  : "permanent form of the equations solved, in the range of cnoidal waves "
                                    "(Ursell number above 26)");
+        if (!scene.waves.bound_waves_reason.empty())
+            record_.set_note("waves.bound", scene.waves.bound_waves_reason);
         record_.set_figure("waves.ursell",
                            ursell_number(scene.waves.height, scene.waves.length, scene.waves.depth));
     }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "boussinesq/wave_section.hpp"
+#include "boussinesq/waves/bound_waves.hpp"
 #include "boussinesq/waves/wave_theory.hpp"
 #include "common/errors.hpp"
 
@@ -137,6 +138,28 @@ EffectWishes read_wishes(const common::SceneFile& file) {
             .friction = common::read_effect_wish(file, "friction")};
 }
 
+/// Second order holds where a wave of the significant height has a second harmonic well below its first.
+void decide_bound_waves(Scene& scene) {
+    WaveSection& waves = scene.waves;
+    if (waves.kind != WaveKind::irregular || waves.length <= 0) return;
+    if (!waves.has_bound_waves) {
+        waves.bound_waves_reason = "left out: waves.bound_waves is \"none\"";
+    } else if (!scene.terms.dispersion) {
+        waves.has_bound_waves = false;
+        waves.bound_waves_reason = "left out: without dispersion all waves are free";
+    } else {
+        constexpr double largest = 0.3;
+        const double k = two_pi / waves.length;
+        const double ratio =
+            0.5 * waves.height * bound_pair({.alpha = scene.flow.alpha}, waves.depth, k, k, 1).elevation;
+        waves.has_bound_waves = ratio < largest;
+        waves.bound_waves_reason =
+            fmt::format("second harmonic of a significant wave {:.2g} of its first, {} {}: {}", ratio,
+                        waves.has_bound_waves ? "<" : ">=", largest,
+                        waves.has_bound_waves ? "second order" : "left out, second order does not hold");
+    }
+}
+
 void decide_effects(const common::SceneFile& file, const EffectWishes& wishes, common::Accuracy accuracy,
                     Scene& scene) {
     const WaveSection& waves = scene.waves;
@@ -164,6 +187,7 @@ void decide_effects(const common::SceneFile& file, const EffectWishes& wishes, c
     };
     scene.terms.dispersion = decide("dispersion", wishes.dispersion, needs_dispersion(expected));
     expected.is_dispersive = scene.terms.dispersion;
+    decide_bound_waves(scene);
     scene.has_breaking = decide("breaking", wishes.breaking, needs_breaking(expected));
     scene.terms.shoreline = decide("shoreline", wishes.shoreline, needs_shoreline(expected));
     scene.shoreline_is_automatic = wishes.shoreline == common::EffectWish::automatic;

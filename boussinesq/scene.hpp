@@ -28,6 +28,8 @@ struct WaveSection {
     double depth = 0;               ///< still water where the wave is made, m
     double length = 0;              ///< of the (peak) wave there, m
     SeaState sea;
+    bool has_bound_waves = false;  ///< irregular waves to second order
+    std::string bound_waves_reason;
     std::vector<double> record_time, record_elevation, record_velocity;  ///< waves.file
     std::vector<double> initial_x, initial_elevation, initial_velocity;  ///< [initial] file
 };

@@ -236,6 +236,10 @@ void read_waves(const common::SceneFile& file, Scene& scene, const LinearDispers
                 section.integer("seed", "of frequencies and phases", Range::not_negative(), 1));
             waves.sea.components = static_cast<std::size_t>(
                 section.integer("components", "of the sum of waves", Range::between(10, 5000), 200));
+            waves.has_bound_waves =
+                section.choice("bound_waves",
+                               "long waves under groups and sharper crests that come with the sea",
+                               {"second_order", "none"}, "second_order") == "second_order";
             waves.sea.significant_height = waves.height;
             waves.sea.peak_period = waves.period;
         }

@@ -16,33 +16,78 @@ namespace {
 constexpr double two_pi = 2.0 * std::numbers::pi;
 }
 
-ComponentWave::ComponentWave(std::vector<WaveComponent> components, double position, double interval)
-    : components_(std::move(components)), position_(position), interval_(interval) {}
+ComponentWave::ComponentWave(std::vector<WaveComponent> components, double position, double interval,
+                             std::optional<BoundWaves> bound)
+    : components_(std::move(components)), position_(position), interval_(interval), bound_(std::move(bound)) {
+    const auto count = static_cast<Eigen::Index>(components_.size());
+    shares_.resize(3 + (bound_ ? bound_->share.rows() : 0), count);
+    for (Eigen::Index n = 0; n < count; ++n) {
+        const WaveComponent& c = components_[static_cast<std::size_t>(n)];
+        const double ahead = c.velocity_phase - c.elevation_phase;
+        shares_(0, n) = c.elevation_amplitude;
+        shares_(1, n) = c.velocity_amplitude * std::cos(ahead);
+        shares_(2, n) = -c.velocity_amplitude * std::sin(ahead);
+    }
+    if (bound_) shares_.bottomRows(bound_->share.rows()) = bound_->share;
+}
 
-void ComponentWave::evaluate(double t, std::span<const double> x, double* elevation, double* velocity) const {
-    std::fill(elevation, elevation + x.size(), 0.0);
-    std::fill(velocity, velocity + x.size(), 0.0);
+void ComponentWave::evaluate(double t, std::span<const double> x, std::span<double> elevation,
+                             std::span<double> velocity) const {
     if (x.empty()) return;
-    const double spacing = x.size() > 1 ? (x.back() - x.front()) / static_cast<double>(x.size() - 1) : 0.0;
-    for (const WaveComponent& c : components_) {
-        // Equal spacing: each place is the last one turned by k dx.
-        const double phase = c.wave_number * (x.front() - position_) - c.angular_frequency * t;
-        const double turn_cos = std::cos(c.wave_number * spacing),
-                     turn_sin = std::sin(c.wave_number * spacing);
-        double ec = c.elevation_amplitude * std::cos(phase + c.elevation_phase),
-               es = c.elevation_amplitude * std::sin(phase + c.elevation_phase);
-        double uc = c.velocity_amplitude * std::cos(phase + c.velocity_phase),
-               us = c.velocity_amplitude * std::sin(phase + c.velocity_phase);
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            elevation[i] += ec;
-            velocity[i] += uc;
-            const double ec_next = ec * turn_cos - es * turn_sin, uc_next = uc * turn_cos - us * turn_sin;
-            es = es * turn_cos + ec * turn_sin;
-            us = us * turn_cos + uc * turn_sin;
-            ec = ec_next;
-            uc = uc_next;
+    const auto places = static_cast<Eigen::Index>(x.size());
+    const double spacing = places > 1 ? (x.back() - x.front()) / static_cast<double>(places - 1) : 0.0;
+    if (turn_real_.size() != shares_.cols() || spacing != turn_spacing_) {
+        turn_spacing_ = spacing;
+        turn_real_.resize(shares_.cols());
+        turn_imaginary_.resize(shares_.cols());
+        for (Eigen::Index n = 0; n < shares_.cols(); ++n) {
+            const double angle = components_[static_cast<std::size_t>(n)].wave_number * spacing;
+            turn_real_[n] = std::cos(angle);
+            turn_imaginary_[n] = std::sin(angle);
         }
     }
+    sum_real_.setZero(shares_.rows(), places);
+    sum_imaginary_.setZero(shares_.rows(), places);
+    constexpr Eigen::Index batch = 128;  // components whose values at all places stay in the cache
+    for (Eigen::Index begin = 0; begin < shares_.cols(); begin += batch) {
+        const Eigen::Index count = std::min(batch, shares_.cols() - begin);
+        real_.resize(count, places);
+        imaginary_.resize(count, places);
+        const auto turn_real = turn_real_.segment(begin, count),
+                   turn_imaginary = turn_imaginary_.segment(begin, count);
+        for (Eigen::Index n = 0; n < count; ++n) {
+            const WaveComponent& c = components_[static_cast<std::size_t>(begin + n)];
+            const double phase =
+                c.wave_number * (x.front() - position_) - c.angular_frequency * t + c.elevation_phase;
+            real_(n, 0) = std::cos(phase);
+            imaginary_(n, 0) = std::sin(phase);
+        }
+        for (Eigen::Index i = 1; i < places;
+             ++i) {  // equal spacing: each place is the last one turned by k dx
+            real_.col(i) =
+                real_.col(i - 1).array() * turn_real - imaginary_.col(i - 1).array() * turn_imaginary;
+            imaginary_.col(i) =
+                imaginary_.col(i - 1).array() * turn_real + real_.col(i - 1).array() * turn_imaginary;
+        }
+        sum_real_.noalias() += shares_.middleCols(begin, count) * real_;
+        sum_imaginary_.noalias() += shares_.middleCols(begin, count) * imaginary_;
+    }
+    Eigen::Map<Eigen::RowVectorXd> eta(elevation.data(), places), u(velocity.data(), places);
+    eta = sum_real_.row(0);
+    u = sum_real_.row(1) + sum_imaginary_.row(2);
+    if (!bound_) return;
+    const auto real = sum_real_.bottomRows(bound_->share.rows());
+    const auto imaginary = sum_imaginary_.bottomRows(bound_->share.rows());
+    const auto add = [&](auto& values, const Eigen::MatrixXd& of_real, const Eigen::MatrixXd& of_imaginary,
+                         double mean) {
+        product_.noalias() = of_real * real;
+        values += real.cwiseProduct(product_).colwise().sum();
+        product_.noalias() = of_imaginary * imaginary;
+        values += imaginary.cwiseProduct(product_).colwise().sum();
+        values.array() -= mean;
+    };
+    add(eta, bound_->elevation_real, bound_->elevation_imaginary, bound_->mean_elevation);
+    add(u, bound_->velocity_real, bound_->velocity_imaginary, bound_->mean_velocity);
 }
 
 void ComponentWave::at(double t, std::span<const double> x, std::span<double> elevation,
@@ -68,8 +113,7 @@ void ComponentWave::at(double t, std::span<const double> x, std::span<double> el
             found->number = wanted;
             found->elevation.resize(x.size());
             found->velocity.resize(x.size());
-            evaluate(static_cast<double>(wanted) * interval_, x, found->elevation.data(),
-                     found->velocity.data());
+            evaluate(static_cast<double>(wanted) * interval_, x, found->elevation, found->velocity);
         }
         around[j] = &*found;
     }

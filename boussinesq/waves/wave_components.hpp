@@ -1,9 +1,12 @@
 /// Waves as a sum of linear components: irregular sea states and waves known from a record.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "boussinesq/waves/bound_waves.hpp"
 #include "boussinesq/waves/incident_wave.hpp"
 #include "boussinesq/waves/wave_theory.hpp"
 
@@ -16,7 +19,7 @@ struct WaveComponent {
     double velocity_amplitude, velocity_phase;    ///< m/s, rad
 };
 
-/// Sum of components; x is counted from `position`.
+/// Sum of components, and of the waves bound to them; x is counted from `position`.
 ///
 /// A sum over hundreds of components at every cell and step would cost more than the flow itself, so it is
 /// evaluated at times a sixtieth of the shortest period of weight apart and followed in between by cubic
@@ -24,21 +27,29 @@ struct WaveComponent {
 /// on the steps taken.
 class ComponentWave : public IncidentWave {
  public:
-    ComponentWave(std::vector<WaveComponent> components, double position, double interval);
+    ComponentWave(std::vector<WaveComponent> components, double position, double interval,
+                  std::optional<BoundWaves> bound = {});
     void at(double t, std::span<const double> x, std::span<double> elevation,
             std::span<double> velocity) const override;
     const std::vector<WaveComponent>& components() const { return components_; }
 
  private:
-    void evaluate(double t, std::span<const double> x, double* elevation, double* velocity) const;
+    void evaluate(double t, std::span<const double> x, std::span<double> elevation,
+                  std::span<double> velocity) const;
     std::vector<WaveComponent> components_;
     double position_, interval_;
+    std::optional<BoundWaves> bound_;
+    Eigen::MatrixXd
+        shares_;  ///< rows: elevation, velocity (two), shares of the bound waves; a column a component
     /// Values at four neighbouring times, by number of the interval; filled on demand.
     struct Sample {
         std::int64_t number;
         std::vector<double> elevation, velocity;
     };
     mutable std::vector<Sample> samples_;
+    mutable Eigen::ArrayXd turn_real_, turn_imaginary_;  ///< of each component from place to place
+    mutable double turn_spacing_ = 0;
+    mutable Eigen::MatrixXd real_, imaginary_, sum_real_, sum_imaginary_, product_;  ///< scratch of evaluate
 };
 
 /// Shape of an irregular sea state.

@@ -82,6 +82,44 @@ def irregular_waves_have_the_height_of_their_spectrum(folder):
         check_between(f"{kind}: H_1/3 over 4 sigma", ratio, 0.88, 1.02, "", "0.95 in Goda's field data")
 
 
+def low_passed(values, interval, highest):
+    """Frequencies up to `highest` (Hz) but the mean."""
+    spectrum, frequency = numpy.fft.fft(values), abs(numpy.fft.fftfreq(len(values), interval))
+    return numpy.fft.ifft(numpy.where((frequency < highest) & (frequency > 0), spectrum, 0)).real
+
+
+@test
+def groups_carry_their_long_wave(folder):
+    # Longuet-Higgins and Stewart (1962): under groups of amplitude A(t) the level is -g (2 cg / c - 1/2) A^2 / 2 / (g d - cg^2).
+    # Seven gauges on 24 m; A from the gauge's own record. Made without, the same long wave comes with a free one that cancels it
+    # at the generator and runs away from it.
+    period, depth, gauges = 2.0, 0.8, (12, 16, 20, 24, 28, 32, 36)
+    w = 2 * numpy.pi / period
+    k = w * w / 9.81
+    for _ in range(100):
+        k = 0.5 * (k + w * w / 9.81 / numpy.tanh(k * depth))
+    group = 0.5 * w / k * (1 + 2 * k * depth / numpy.sinh(2 * k * depth))
+    share = -9.81 * (2 * group / (w / k) - 0.5) / (9.81 * depth - group ** 2) / 2
+    slope, set_up = {}, {}
+    for bound in ("second_order", "none"):
+        waves = f'kind = "jonswap"\nheight = 0.05\nperiod = {period}\npeak_enhancement = 20.0\nseed = 7\nbound_waves = "{bound}"'
+        figures = run_flume(folder, flume(waves=waves, end=420.0, gauges=gauges), name=bound)
+        set_up[bound] = abs(gauge_figures(figures, "set_up")).max() * 1e3
+        slopes = []
+        for x in gauges:
+            time, elevation = run_folder.gauge(folder / bound, f"g{x}")
+            elevation, interval = elevation[time > 40], time[1] - time[0]
+            spectrum, frequency = numpy.fft.fft(elevation), numpy.fft.fftfreq(len(elevation), interval)
+            envelope = abs(numpy.fft.ifft(numpy.where((frequency > 0.5 / period) & (frequency < 1.6 / period), 2 * spectrum, 0)))
+            theory, level = (low_passed(values, interval, 0.35 / period) for values in (share * envelope ** 2, elevation))
+            slopes.append(theory @ level / (theory @ theory))
+        slope[bound] = numpy.mean(slopes)
+        print(f"    {bound}: level over theory by regression " + ", ".join(f"{value:.2f}" for value in slopes) + f"; largest mean level {set_up[bound]:.3f} mm")
+    check_between("second order: level over theory", slope["second_order"], 0.85, 1.25, "", "theory of narrow bands; long waves that the sponge sends back scatter it by a tenth")
+    check_below("linear: level over theory", slope["none"], 0.6, "", "the free wave takes most of it away")
+    check_below("second order: largest mean level", set_up["second_order"], 0.05, "mm", "no mean flux; linear waves pile up water")
+
+
 @test
 def a_record_comes_out_where_it_was_taken(folder):
     # Waves of one run, recorded at x = 15, drive a second one; both must agree farther on.
