@@ -48,29 +48,29 @@ void ComponentWave::evaluate(double t, std::span<const double> x, std::span<doub
     }
     sum_real_.setZero(shares_.rows(), places);
     sum_imaginary_.setZero(shares_.rows(), places);
-    constexpr Eigen::Index batch = 128;  // components whose values at all places stay in the cache
+    const Eigen::Index batch = std::min<Eigen::Index>(128, shares_.cols());  // at all places, in the cache
+    real_.resize(batch, places);
+    imaginary_.resize(batch, places);
     for (Eigen::Index begin = 0; begin < shares_.cols(); begin += batch) {
         const Eigen::Index count = std::min(batch, shares_.cols() - begin);
-        real_.resize(count, places);
-        imaginary_.resize(count, places);
+        auto real = real_.topRows(count), imaginary = imaginary_.topRows(count);
         const auto turn_real = turn_real_.segment(begin, count),
                    turn_imaginary = turn_imaginary_.segment(begin, count);
         for (Eigen::Index n = 0; n < count; ++n) {
             const WaveComponent& c = components_[static_cast<std::size_t>(begin + n)];
             const double phase =
                 c.wave_number * (x.front() - position_) - c.angular_frequency * t + c.elevation_phase;
-            real_(n, 0) = std::cos(phase);
-            imaginary_(n, 0) = std::sin(phase);
+            real(n, 0) = std::cos(phase);
+            imaginary(n, 0) = std::sin(phase);
         }
-        for (Eigen::Index i = 1; i < places;
-             ++i) {  // equal spacing: each place is the last one turned by k dx
-            real_.col(i) =
-                real_.col(i - 1).array() * turn_real - imaginary_.col(i - 1).array() * turn_imaginary;
-            imaginary_.col(i) =
-                imaginary_.col(i - 1).array() * turn_real + real_.col(i - 1).array() * turn_imaginary;
+        // Equal spacing: each place is the last one turned by k dx.
+        for (Eigen::Index i = 1; i < places; ++i) {
+            real.col(i) = real.col(i - 1).array() * turn_real - imaginary.col(i - 1).array() * turn_imaginary;
+            imaginary.col(i) =
+                imaginary.col(i - 1).array() * turn_real + real.col(i - 1).array() * turn_imaginary;
         }
-        sum_real_.noalias() += shares_.middleCols(begin, count) * real_;
-        sum_imaginary_.noalias() += shares_.middleCols(begin, count) * imaginary_;
+        sum_real_.noalias() += shares_.middleCols(begin, count) * real;
+        sum_imaginary_.noalias() += shares_.middleCols(begin, count) * imaginary;
     }
     Eigen::Map<Eigen::RowVectorXd> eta(elevation.data(), places), u(velocity.data(), places);
     eta = sum_real_.row(0);

@@ -99,7 +99,7 @@ def vertical_step_in_the_bed(folder):
     bed = [(0, -0.8), (25, -0.8), (25.0001, -0.25), (50, -0.25)]
     for height in (0.02, 0.12):
         figures = run_scene(folder, flume(bed, 100.0, waves=f'kind = "regular"\nheight = {height}\nperiod = 2.2', more="spacing = 0.05", gauges="before = 15.0\nbehind = 32.0"), name=f"h{height}")
-        check_between(f"H = {height}: reflection of the step", figures["gauges"]["before"]["reflection_coefficient"], 0.10, 0.45, "", "long waves: (sqrt(h1) - sqrt(h2)) / (sqrt(h1) + sqrt(h2)) = 0.28")
+        check_between(f"H = {height}: reflection of the step", figures["gauges"]["before"]["reflection_coefficient"], 0.2, 0.4, "", "long waves: (sqrt(h1) - sqrt(h2)) / (sqrt(h1) + sqrt(h2)) = 0.28")
         check_between(f"H = {height}: highest wave behind", figures["gauges"]["behind"]["largest_height"] / height, 0.6, 2.0, "H", "long waves: 2 / (1 + sqrt(h2 / h1)) = 1.28, peaked by free harmonics")
 
 
@@ -109,7 +109,7 @@ def full_standing_wave_at_a_wall(folder):
     height = 0.5 * 0.8 * 0.218 * 3.71 * numpy.tanh(1.35)
     figures = run_scene(folder, flume([(0, -0.8), (20, -0.8)], 60.0, waves=f'kind = "regular"\nheight = {height}\nperiod = 1.65', more='shoreward = "wall"', gauges="wall = 19.99"))
     print(f"    H = {height:.3f} m, at the wall {figures['gauges']['wall']['mean_height']:.3f} m")
-    check_between("height at the wall over twice the incident", figures["gauges"]["wall"]["mean_height"] / (2 * height), 0.6, 1.3, "", "2 for small waves; breaking and crests take and add a third")
+    check_between("height at the wall over twice the incident", figures["gauges"]["wall"]["mean_height"] / (2 * height), 0.9, 1.1, "", "doubled; breaking would take a tenth")
     check_between("highest crest", figures["gauges"]["wall"]["highest"], height, 2.5 * height, "m", "crests of limiting standing waves: 0.65 of 2 H")
 
 
@@ -134,7 +134,7 @@ def open_ends_let_long_waves_out(folder):
 
 @test
 def coarse_and_fine_cells(folder):
-    for spacing, bound in ((2.0, 0.9), (0.5, 0.1), (0.1, 0.01), (0.02, 0.002)):
+    for spacing, bound in ((2.0, 0.9), (0.5, 0.03), (0.1, 5e-4), (0.02, 2e-5)):
         figures = run_scene(folder, flume([(0, -1), (60, -1)], 8.0, waves='kind = "solitary"\nheight = 0.2\nposition = 20.0', more=f"spacing = {spacing}\noutput_interval = 2.0"), name=f"dx{spacing}")
         elevation = run_folder.read_series(folder / f"dx{spacing}", "/surface_elevation")[1]
         check_below(f"dx/h = {spacing}: height lost", elevation[-1].max() / 0.2 - 1, bound, "", "coarser than the wave: only stable; second order from dx/h = 0.5 on")

@@ -6,13 +6,14 @@ Cases: `dispersion` (waves of kh = 1.35 over 5.4 lengths: complex gain against t
 `solitary` (H/d = 0.2 over 100 depths: largest difference to the exact wave, alpha = 1) and `bar` (Luth et al. 1994, case A:
 rms difference of six gauges to the finest run over the range, the finest row being the reference itself).
 Factors: cell size, step size (Courant number), and what is left out (dispersion off). Times are of the run itself, from run.json:
-median, least and most of the repeats. Writes cost_boussinesq.csv and cost_boussinesq.png.
+median, least and most of the repeats; what `check` told of steps and time over what they came to is listed too. Writes cost_boussinesq.csv and cost_boussinesq.png.
 """
 import argparse
 import csv
 import math
 import os
 import pathlib
+import re
 import statistics
 import subprocess
 import sys
@@ -23,7 +24,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import run_folder  # noqa: E402
 
 COLUMNS = ["stage", "case", "factor", "setting", "cells_per_length", "error", "against", "compute_s", "compute_least_s", "compute_most_s", "wall_s", "cpu_s",
-           "peak_memory_bytes", "steps", "cells", "ns_per_cell_step"]
+           "peak_memory_bytes", "steps", "cells", "ns_per_cell_step", "forecast_steps_over_steps", "forecast_time_over_cpu"]
 
 DISPERSION = """
 [time]
@@ -123,6 +124,17 @@ CASES = {"dispersion": (DISPERSION, dispersion_error, (0.2, 0.1, 0.05, 0.025), 0
          "bar": (BAR, bar_error, (0.1, 0.05, 0.025, BAR_FINEST), 0.05, 3.74)}
 
 
+SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0}
+
+
+def forecast(options, scene, words):
+    """(steps, seconds) that `check` tells."""
+    told = subprocess.run([str(options.bin / "boussinesq"), "check", str(scene)] + [w for word in words for w in ("--set", word)], capture_output=True, text=True, check=True).stdout
+    steps = float(re.search(r"steps\s+about ([\d.e+]+)", told)[1])
+    number, unit = re.search(r"run time\s+about ([\d.e+-]+) (s|min|h)\b", told).groups()
+    return steps, float(number) * SECONDS[unit]
+
+
 def run_case(options, case, factor, setting, words, reference=None):
     text, error_of, _, _, length = CASES[case]
     out = options.out / "cost_boussinesq"
@@ -143,12 +155,15 @@ def run_case(options, case, factor, setting, words, reference=None):
         wall.append(record["wall_time"])
         cpu.append(record["cpu_time"])
     error, against = error_of(folder, reference)
-    figures = record["figures"]
+    told_steps, told_seconds = forecast(options, scene, words)
+    figures, row_cpu = record["figures"], statistics.median(cpu)
     row = {"stage": "boussinesq", "case": case, "factor": factor, "setting": setting, "cells_per_length": length / figures["spacing"],
            "error": error, "against": against, "compute_s": statistics.median(compute), "compute_least_s": min(compute), "compute_most_s": max(compute),
-           "wall_s": statistics.median(wall), "cpu_s": statistics.median(cpu), "peak_memory_bytes": record["peak_memory"],
-           "steps": figures["steps"], "cells": figures["cells"], "ns_per_cell_step": figures["nanoseconds_per_cell_step"]}
-    print(f"{case:11} {factor:10} {setting!s:6} error {error:.2e}   {row['compute_s']:.3f} s   {figures['cells']:.0f} cells", flush=True)
+           "wall_s": statistics.median(wall), "cpu_s": row_cpu, "peak_memory_bytes": record["peak_memory"],
+           "steps": figures["steps"], "cells": figures["cells"], "ns_per_cell_step": figures["nanoseconds_per_cell_step"], "forecast_steps_over_steps": told_steps / figures["steps"],
+           "forecast_time_over_cpu": told_seconds / row_cpu}
+    print(f"{case:11} {factor:10} {setting!s:6} error {error:.2e}   {row['compute_s']:.3f} s   {figures['cells']:.0f} cells   "
+          f"forecast over real: steps {row['forecast_steps_over_steps']:.2f}, time {row['forecast_time_over_cpu']:.2f}", flush=True)
     return row, folder
 
 
