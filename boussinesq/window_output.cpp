@@ -12,8 +12,10 @@ void WindowOutput::begin(std::int64_t index) {
     index_ = index;
     times_ = clock_.samples_in(index, interval_);
     next_ = 0;
-    elevation_.clear();
-    velocity_.clear();
+    for (auto* values : {&elevation_, &velocity_}) {
+        values->clear();
+        values->reserve(times_.size() * simulation_.grid().cells);
+    }
     gauge_times_.clear();
     for (const GaugeRecord& gauge : gauges_) {
         auto times = clock_.samples_in(index, gauge.interval);
@@ -60,8 +62,8 @@ common::Window WindowOutput::take() {
     window.datasets["/time"] = common::real64("s", {nt}, times_);
     window.datasets["/x"] = common::real64("m", {nx}, std::move(x));
     window.datasets["/still_water_depth"] = common::real32("m", {nx}, std::span<const double>(still));
-    window.datasets["/surface_elevation"] = common::real32("m", {nt, nx}, elevation_);
-    window.datasets["/velocity"] = common::real32("m/s", {nt, nx}, velocity_);
+    window.datasets["/surface_elevation"] = common::real32("m", {nt, nx}, std::move(elevation_));
+    window.datasets["/velocity"] = common::real32("m/s", {nt, nx}, std::move(velocity_));
     add_gauges(window, gauges_);
     return window;
 }
