@@ -1,0 +1,28 @@
+"""The short form of one study: it ends well and leaves its table and its picture.
+
+    short_form.py PROGRAMS STUDY.py [further words of the study]
+"""
+import csv
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+programs, study, *words = sys.argv[1:]
+with tempfile.TemporaryDirectory(prefix="tsunagi_study_") as folder:
+    ended = subprocess.run(["/usr/bin/python3", study, "--bin", programs, "--out", folder, "--smoke", *words], text=True,
+                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    print(ended.stdout)
+    if ended.returncode != 0:
+        sys.exit(f"{study}: exit status {ended.returncode}")
+    tables, pictures = (list(pathlib.Path(folder).glob(pattern)) for pattern in ("*.csv", "*.png"))
+    if not tables or not pictures:
+        sys.exit(f"{study}: left {len(tables)} tables and {len(pictures)} pictures")
+    for table in tables:
+        rows = list(csv.DictReader(table.open()))
+        print(f"{table.name}: {len(rows)} rows of {', '.join(rows[0]) if rows else 'nothing'}")
+        if not rows:
+            sys.exit(f"{table.name}: has no rows")
+    for picture in pictures:
+        if picture.read_bytes()[:8] != b"\x89PNG\r\n\x1a\n":
+            sys.exit(f"{picture.name}: is not a picture")
