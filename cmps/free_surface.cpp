@@ -1,7 +1,5 @@
 #include "cmps/free_surface.hpp"
 
-#include <cmath>
-
 #include "common/parallel.hpp"
 
 namespace cmps {
@@ -13,8 +11,9 @@ void find_free_surface(const Particles& particles, const NeighbourLists& lists,
     place.resize(rows);
     common::parallel_for(rows, 4000, [&](std::size_t r) {
         const double n = interactions.number_density[r];
-        const double asymmetry = std::hypot(interactions.asymmetry_x[r], interactions.asymmetry_z[r]);
-        const bool is_surface = n < 0.97 * n0 && (asymmetry > 0.18 * n0 || n < 0.5 * n0);
+        const double fx = interactions.asymmetry_x[r], fz = interactions.asymmetry_z[r];
+        const double limit = 0.18 * n0;
+        const bool is_surface = n < 0.97 * n0 && (fx * fx + fz * fz > limit * limit || n < 0.5 * n0);
         place[r] = is_surface ? Place::surface : Place::inside;
         if (r >= walls) {
             if (n < 0.1 * n0) place[r] = Place::dry;  // less than one neighbour in reach
@@ -27,16 +26,14 @@ void find_free_surface(const Particles& particles, const NeighbourLists& lists,
         }
         if (water <= 0.02 * n0) place[r] = Place::dry;
     });
-    common::parallel_for(rows, 4000, [&](std::size_t r) {
-        if (place[r] != Place::inside) return;
+    // from the few at the surface to those around them: lists hold every pair twice
+    for (std::size_t r = walls; r < rows; ++r) {
+        if (place[r] < Place::surface) continue;
         for (std::size_t k = lists.carriers[r]; k < lists.start[r + 1]; ++k) {
-            const std::size_t other = static_cast<std::size_t>(lists.neighbour[k]) - first;
-            if (interactions.weight[k] > 0 && place[other] >= Place::surface && other >= walls) {
-                place[r] = Place::near_surface;
-                return;
-            }
+            Place& other = place[static_cast<std::size_t>(lists.neighbour[k]) - first];
+            if (interactions.weight[k] > 0 && other == Place::inside) other = Place::near_surface;
         }
-    });
+    }
 }
 
 }  // namespace cmps

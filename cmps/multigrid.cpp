@@ -8,8 +8,11 @@ namespace cmps {
 namespace {
 
 constexpr std::size_t direct_below = 200;  // unknowns
-constexpr double enlargement = 1.6;
+constexpr float enlargement = 1.6F;
 constexpr std::size_t most_levels = 16;
+// Links of a level reach over two boxes at most, those of coarser levels over one or two: all boxes that a
+// box is linked to lie in a window of 5 x 5.
+constexpr std::int32_t reach = 2, window = 2 * reach + 1, middle = reach * window + reach;
 
 }  // namespace
 
@@ -31,7 +34,8 @@ void Multigrid::build(const SparseMatrix& matrix, const std::vector<double>& x, 
         const SparseMatrix& here = matrix_of(depth_);
         Level& level = levels_[depth_];
         level.inverse_diagonal.resize(here.rows());
-        for (std::size_t i = 0; i < here.rows(); ++i) level.inverse_diagonal[i] = 1.0 / here.diagonal[i];
+        for (std::size_t i = 0; i < here.rows(); ++i)
+            level.inverse_diagonal[i] = static_cast<float>(1.0 / here.diagonal[i]);
         level.right.resize(here.rows()), level.result.resize(here.rows());
         if (here.rows() <= direct_below || depth_ + 1 == most_levels) break;
         gather(depth_);
@@ -48,26 +52,28 @@ void Multigrid::gather(std::size_t level) {
     std::int32_t columns = 0, lines = 0;
     for (std::size_t i = 0; i < rows; ++i)
         columns = std::max(columns, fine.box_x[i] + 1), lines = std::max(lines, fine.box_z[i] + 1);
-    std::vector<std::int32_t>& number = fine.children;  // first used as the number of each box
+    // a margin of empty boxes, so that the window around a box never leaves the grid
+    columns += 2 * reach, lines += 2 * reach;
+    fine.lines = lines;
+    std::vector<std::int32_t>& number = fine.number;
     number.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(lines), -1);
-    fine.parent.resize(rows);
+    fine.parent.resize(rows), fine.place.resize(rows);
     coarse.box_x.clear(), coarse.box_z.clear();
-    const auto box_of = [&](std::size_t i) {
-        return static_cast<std::size_t>(fine.box_x[i]) * static_cast<std::size_t>(lines) +
-               static_cast<std::size_t>(fine.box_z[i]);
-    };
-    for (std::size_t i = 0; i < rows; ++i) number[box_of(i)] = 0;
+    for (std::size_t i = 0; i < rows; ++i) {
+        fine.parent[i] = (fine.box_x[i] + reach) * lines + fine.box_z[i] + reach;
+        fine.place[i] = window * fine.box_x[i] + fine.box_z[i];
+        number[static_cast<std::size_t>(fine.parent[i])] = 0;
+    }
     std::int32_t next = 0;
-    for (std::size_t b = 0; b < number.size();
-         ++b) {  // in the order of place: coarse rows stay near their neighbours
-        if (number[b] < 0) continue;
-        number[b] = next++;
-        coarse.box_x.push_back(static_cast<std::int32_t>(b / static_cast<std::size_t>(lines)) / 2);
-        coarse.box_z.push_back(static_cast<std::int32_t>(b % static_cast<std::size_t>(lines)) / 2);
+    for (std::int32_t b = 0; b < columns * lines; ++b) {  // coarse rows stay near their neighbours
+        if (number[static_cast<std::size_t>(b)] < 0) continue;
+        number[static_cast<std::size_t>(b)] = next++;
+        coarse.box_x.push_back((b / lines - reach) / 2);
+        coarse.box_z.push_back((b % lines - reach) / 2);
     }
     fine.child_start.assign(static_cast<std::size_t>(next) + 1, 0);
     for (std::size_t i = 0; i < rows; ++i) {
-        fine.parent[i] = number[box_of(i)];
+        fine.parent[i] = number[static_cast<std::size_t>(fine.parent[i])];
         ++fine.child_start[static_cast<std::size_t>(fine.parent[i]) + 1];
     }
     for (std::size_t c = 0; c < static_cast<std::size_t>(next); ++c)
@@ -85,43 +91,32 @@ void Multigrid::coarsen(std::size_t level) {
     const Level& here = levels_[level];
     SparseMatrix& coarse = levels_[level + 1].matrix;
     const std::size_t rows = here.child_start.size() - 1;
-    coarse.start.assign(rows + 1, 0), coarse.upper.resize(rows), coarse.diagonal.resize(rows);
-    coarse.column.clear(), coarse.value.clear();
-    constexpr std::uint32_t unseen = std::numeric_limits<std::uint32_t>::max();
-    marker_.assign(rows, unseen);
+    coarse.start.resize(rows + 1), coarse.upper.resize(rows), coarse.diagonal.resize(rows);
+    coarse.column.resize(rows * (window * window - 1)), coarse.value.resize(coarse.column.size());
+    const std::int32_t* const place = here.place.data();
+    std::uint32_t next = 0;
+    coarse.start[0] = 0;
     for (std::size_t c = 0; c < rows; ++c) {
-        const auto begin = static_cast<std::uint32_t>(coarse.column.size());
+        const auto first = static_cast<std::size_t>(here.children[here.child_start[c]]);
+        const std::int32_t corner = place[first] - middle;
+        float sums[window * window] = {};
         double diagonal = 0;
         for (std::size_t m = here.child_start[c]; m < here.child_start[c + 1]; ++m) {
-            const std::size_t i = static_cast<std::size_t>(here.children[m]);
+            const auto i = static_cast<std::size_t>(here.children[m]);
             diagonal += fine.diagonal[i];
-            for (std::size_t k = fine.start[i]; k < fine.start[i + 1]; ++k) {
-                const std::int32_t to = here.parent[static_cast<std::size_t>(fine.column[k])];
-                if (to == static_cast<std::int32_t>(c)) {
-                    diagonal += fine.value[k];
-                    continue;
-                }
-                std::uint32_t& place = marker_[static_cast<std::size_t>(to)];
-                if (place == unseen || place < begin) {
-                    place = static_cast<std::uint32_t>(coarse.column.size());
-                    coarse.column.push_back(to), coarse.value.push_back(0.0);
-                }
-                coarse.value[place] += fine.value[k];
-            }
+            for (std::size_t k = fine.start[i]; k < fine.start[i + 1]; ++k)
+                sums[place[fine.column[k]] - corner] += fine.value[k];
         }
-        // sweeps need the entries left of the diagonal apart from those right of it; their order within does
-        // not matter
-        auto end = static_cast<std::uint32_t>(coarse.column.size());
-        std::uint32_t left = begin;
-        for (std::size_t k = begin; k < end; ++k)
-            if (coarse.column[k] < static_cast<std::int32_t>(c)) {
-                std::swap(coarse.column[k], coarse.column[left]);
-                std::swap(coarse.value[k], coarse.value[left]);
-                ++left;
-            }
-        coarse.upper[c] = left;
-        coarse.diagonal[c] = diagonal;
-        coarse.start[c + 1] = end;
+        coarse.diagonal[c] = diagonal + static_cast<double>(sums[middle]);
+        const std::int32_t* const around =
+            &here.number[static_cast<std::size_t>(here.box_x[first] * here.lines + here.box_z[first])];
+        for (std::int32_t b = 0; b < window * window; ++b) {
+            if (b == middle) coarse.upper[c] = next;
+            if (b == middle || sums[b] == 0) continue;
+            coarse.column[next] = around[b / window * here.lines + b % window];
+            coarse.value[next++] = sums[b];
+        }
+        coarse.start[c + 1] = next;
     }
 }
 
@@ -132,7 +127,7 @@ void Multigrid::factorise_coarsest() {
     for (std::size_t i = 0; i < n; ++i) {
         dense_[i * n + i] = matrix.diagonal[i];
         for (std::size_t k = matrix.start[i]; k < matrix.upper[i]; ++k)
-            dense_[i * n + static_cast<std::size_t>(matrix.column[k])] = matrix.value[k];
+            dense_[i * n + static_cast<std::size_t>(matrix.column[k])] = static_cast<double>(matrix.value[k]);
     }
     for (std::size_t i = 0; i < n; ++i) {
         double* const row = &dense_[i * n];
@@ -144,56 +139,74 @@ void Multigrid::factorise_coarsest() {
             row[j] = i == j ? std::sqrt(sum) : sum / other[j];
         }
     }
+    dense_result_.resize(n);
+}
+
+void Multigrid::solve_coarsest() {
+    const std::size_t n = matrix_of(depth_).rows();
+    Level& level = levels_[depth_];
+    double* const x = dense_result_.data();
+    for (std::size_t i = 0; i < n; ++i) {
+        const double* const row = &dense_[i * n];
+        double sum = static_cast<double>(level.right[i]);
+#pragma omp simd reduction(- : sum)
+        for (std::size_t k = 0; k < i; ++k) sum -= row[k] * x[k];
+        x[i] = sum / row[i];
+    }
+    for (std::size_t i = n; i-- > 0;) {
+        const double* const row = &dense_[i * n];
+        const double value = x[i] /= row[i];
+#pragma omp simd
+        for (std::size_t k = 0; k < i; ++k) x[k] -= row[k] * value;
+    }
+    for (std::size_t i = 0; i < n; ++i) level.result[i] = static_cast<float>(x[i]);
 }
 
 void Multigrid::apply(const std::vector<double>& right, std::vector<double>& result) {
-    cycle(0, right, result);
+    Level& finest = levels_[0];
+#pragma omp simd
+    for (std::size_t i = 0; i < right.size(); ++i) finest.right[i] = static_cast<float>(right[i]);
+    cycle(0);
+#pragma omp simd
+    for (std::size_t i = 0; i < right.size(); ++i) result[i] = static_cast<double>(finest.result[i]);
 }
 
-void Multigrid::cycle(std::size_t level, const std::vector<double>& right, std::vector<double>& result) {
+/// Sweeps add a row's entries so that the unknown found last comes last: the next row's sum is under way
+/// before.
+void Multigrid::cycle(std::size_t level) {
+    if (level == depth_) return solve_coarsest();
     const SparseMatrix& matrix = matrix_of(level);
     const std::size_t rows = matrix.rows();
-    double* const x = result.data();
-    if (level == depth_) {
-        for (std::size_t i = 0; i < rows; ++i) {
-            double sum = right[i];
-            for (std::size_t k = 0; k < i; ++k) sum -= dense_[i * rows + k] * x[k];
-            x[i] = sum / dense_[i * rows + i];
-        }
-        for (std::size_t i = rows; i-- > 0;) {
-            double sum = x[i];
-            for (std::size_t k = i + 1; k < rows; ++k) sum -= dense_[k * rows + i] * x[k];
-            x[i] = sum / dense_[i * rows + i];
-        }
-        return;
-    }
-    const double* const value = matrix.value.data();
+    const float* const value = matrix.value.data();
     const std::int32_t* const column = matrix.column.data();
+    const std::uint32_t* const start = matrix.start.data();
+    const std::uint32_t* const upper = matrix.upper.data();
     Level& here = levels_[level];
     Level& coarse = levels_[level + 1];
+    float* const x = here.result.data();
+    const float* const right = here.right.data();
+    const float* const inverse = here.inverse_diagonal.data();
     // forwards from zero: x = (D + L)^-1 r; what is left of r is -L^T x
     for (std::size_t i = 0; i < rows; ++i) {
-        double sum = right[i];
-#pragma omp simd reduction(- : sum)
-        for (std::size_t k = matrix.start[i]; k < matrix.upper[i]; ++k) sum -= value[k] * x[column[k]];
-        x[i] = sum * here.inverse_diagonal[i];
+        float sum = right[i];
+        for (std::size_t k = start[i]; k < upper[i]; ++k) sum -= value[k] * x[column[k]];
+        x[i] = sum * inverse[i];
     }
-    std::fill(coarse.right.begin(), coarse.right.end(), 0.0);
+    std::fill(coarse.right.begin(), coarse.right.end(), 0.0F);
     for (std::size_t i = 0; i < rows; ++i) {
-        double sum = 0;
-#pragma omp simd reduction(- : sum)
-        for (std::size_t k = matrix.upper[i]; k < matrix.start[i + 1]; ++k) sum -= value[k] * x[column[k]];
+        float sum = 0;
+        for (std::size_t k = upper[i]; k < start[i + 1]; ++k) sum -= value[k] * x[column[k]];
         coarse.right[static_cast<std::size_t>(here.parent[i])] += sum;
     }
-    cycle(level + 1, coarse.right, coarse.result);
+    cycle(level + 1);
     for (std::size_t i = 0; i < rows; ++i)
         x[i] += enlargement * coarse.result[static_cast<std::size_t>(here.parent[i])];
     // backwards
     for (std::size_t i = rows; i-- > 0;) {
-        double sum = right[i];
-#pragma omp simd reduction(- : sum)
-        for (std::size_t k = matrix.start[i]; k < matrix.start[i + 1]; ++k) sum -= value[k] * x[column[k]];
-        x[i] = sum * here.inverse_diagonal[i];
+        float sum = right[i];
+        for (std::size_t k = start[i]; k < upper[i]; ++k) sum -= value[k] * x[column[k]];
+        for (std::size_t k = start[i + 1]; k-- > upper[i];) sum -= value[k] * x[column[k]];
+        x[i] = sum * inverse[i];
     }
 }
 

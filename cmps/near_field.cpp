@@ -122,8 +122,9 @@ void NearField::solve_pressure(double step) {
             unknown_x_[a] = particles.x[first + equation.row_of[a]];
             unknown_z_[a] = particles.z[first + equation.row_of[a]];
         }
-        report = solver_.solve(equation.matrix, equation.right_hand_side, unknown_pressure_, unknown_x_,
-                               unknown_z_, 2.0 * settings.spacing);
+        report =
+            solver_.solve(equation.matrix, equation.right_hand_side, unknown_pressure_, unknown_x_,
+                          unknown_z_, std::max(2.0, 0.5 * settings.kernel_radius_ratio) * settings.spacing);
     }
     counts.iterations += report.iterations;
     if (!report.is_converged) ++counts.unconverged;
@@ -239,7 +240,7 @@ void NearField::shift() {
                 sx -= across * fx, sz -= across * fz;
             }
         }
-        const double size = std::hypot(sx, sz), scale = size > limit ? limit / size : 1.0;
+        const double size = std::sqrt(sx * sx + sz * sz), scale = size > limit ? limit / size : 1.0;
         particles.x[first + f] += scale * sx;
         particles.z[first + f] += scale * sz;
     }

@@ -37,7 +37,8 @@ double PressureEquation::divergence(const Particles& particles, const NeighbourL
 }
 
 double PressureEquation::surface_share(const Interactions& interactions, std::size_t row) const {
-    const double asymmetry = std::hypot(interactions.asymmetry_x[row], interactions.asymmetry_z[row]);
+    const double fx = interactions.asymmetry_x[row], fz = interactions.asymmetry_z[row];
+    const double asymmetry = std::sqrt(fx * fx + fz * fz);
     // F/n0 is 0.29 in the first row of a flat surface, 0.07 in the second, 0.02 from disorder inside
     return std::clamp((asymmetry / lattice_.number_density - 0.06) / (0.18 - 0.06), 0.0, 1.0);
 }
@@ -65,8 +66,8 @@ void PressureEquation::assemble(const Particles& particles, const NeighbourLists
     matrix.start.resize(unknowns + 1);
     matrix.upper.resize(unknowns);
     matrix.diagonal.resize(unknowns);
-    matrix.column.resize(lists.neighbour.size());
-    matrix.value.resize(lists.neighbour.size());
+    matrix.column.resize(lists.neighbour.size() + 1);  // one place to write what does not count
+    matrix.value.resize(lists.neighbour.size() + 1);
     right_hand_side.resize(unknowns);
     density_error.resize(rows);
 
@@ -75,23 +76,29 @@ void PressureEquation::assemble(const Particles& particles, const NeighbourLists
     // both are scaled to sum c (p_i - p_j) = -scale * laplacian(p) on the lattice
     const double scale = is_higher_order ? lattice_.number_density * lattice_.laplacian_scale
                                          : lattice_.number_density * lattice_.lambda / 4.0;
+    const std::int32_t* const neighbour = lists.neighbour.data();
+    const std::int32_t* const unknown = unknown_of.data();
+    std::int32_t* const column = matrix.column.data();
+    float* const value = matrix.value.data();
     std::uint32_t next = 0;
     matrix.start[0] = 0;
     for (std::size_t a = 0; a < unknowns; ++a) {
         const std::size_t row = static_cast<std::size_t>(row_of[a]);
+        const std::uint32_t begin = next, end = lists.start[row + 1];
         double diagonal = 0;
-        matrix.upper[a] = next;
-        bool is_right = false;
-        for (std::size_t k = lists.carriers[row]; k < lists.start[row + 1]; ++k) {
-            const double c = coefficient[k];
-            diagonal += c;
-            const std::int32_t b = unknown_of[static_cast<std::size_t>(lists.neighbour[k]) - first];
-            if (b < 0 || c == 0) continue;
-            if (!is_right && b > static_cast<std::int32_t>(a)) is_right = true, matrix.upper[a] = next;
-            matrix.column[next] = b;
-            matrix.value[next++] = -c;
+        std::uint32_t left = 0;
+        // an entry is written in any case and overwritten by the next one where it does not count: no branch
+        for (std::uint32_t k = lists.carriers[row]; k < end; ++k) {
+            const float c = coefficient[k];
+            diagonal += static_cast<double>(c);
+            const std::int32_t b = unknown[static_cast<std::size_t>(neighbour[k]) - first];
+            column[next] = b;
+            value[next] = -c;
+            const bool counts = (b >= 0) & (c != 0);
+            next += counts;
+            left += counts & (b < static_cast<std::int32_t>(a));
         }
-        if (!is_right) matrix.upper[a] = next;
+        matrix.upper[a] = begin + left;
         if (is_smooth)
             diagonal +=
                 missing_kernel(interactions, row) * (is_higher_order ? lattice_.laplacian_ratio : 1.0);

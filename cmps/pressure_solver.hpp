@@ -20,7 +20,7 @@ class IncompleteCholesky {
  private:
     std::vector<std::uint32_t> start_;
     std::vector<std::int32_t> column_;
-    std::vector<double> factor_;  ///< unit lower triangle, strict part, by rows
+    std::vector<float> factor_;  ///< unit lower triangle, strict part, by rows
     std::vector<double> inverse_diagonal_, scaled_;
 };
 
@@ -45,11 +45,14 @@ class PressureSolver {
     template <class Build, class Apply>
     SolveReport iterate(const SparseMatrix& matrix, const std::vector<double>& b, std::vector<double>& x,
                         const Build& build, const Apply& apply);
+    /// Sum of term(i) over the rows, the same for any number of threads.
+    template <class Term>
+    double sum_over_rows(std::size_t rows, const Term& term);
     double tolerance_;
     std::size_t most_iterations_;
     IncompleteCholesky cholesky_;
     Multigrid multigrid_;
-    std::vector<double> residual_, direction_, product_, preconditioned_;
+    std::vector<double> residual_, direction_, product_, preconditioned_, partial_;
 };
 
 }  // namespace cmps
