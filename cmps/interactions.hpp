@@ -11,9 +11,9 @@
 namespace cmps {
 
 /// Per list entry (i, j): r_ij = r_j - r_i, w, w/r^2 and, where a term asks for it, w'/r. Zero beyond the
-/// radius. Pairs are computed in double and kept as float (relative 6e-8, still antisymmetric in i and j:
-/// momentum is conserved as before): they are most of what a step moves through memory. Sums are double. Per
-/// row: sums that the terms share.
+/// radius. r_ij is taken in double; it and what follows from it are float (relative 6e-8, antisymmetric in i
+/// and j: momentum is conserved as before), for pairs are most of what a step moves through memory. Per row:
+/// sums that the terms share.
 struct Interactions {
     std::vector<float> dx, dz, weight, weight_over_r2;
     std::vector<float> slope;      ///< w'/r; empty unless asked for

@@ -1,7 +1,8 @@
 /// Kernels and their constants on the square lattice.
 ///
 /// `weight(r2)` is w(r), `slope(r2)` is w'(r)/r, `curvature(r2)` is w'' - w'/r (the higher-order Laplacian's
-/// coefficient); all take the squared distance and are zero outside `radius`.
+/// coefficient); all take the squared distance and are zero outside `radius`. In the precision of their
+/// argument.
 #pragma once
 
 #include <cmath>
@@ -11,29 +12,43 @@ namespace cmps {
 /// w = re/r - 1: the paper's generation (Koshizuka & Oka 1996).
 struct RationalKernel {
     double radius;  ///< re, m
-    double weight(double r2) const { return r2 < radius * radius ? radius / std::sqrt(r2) - 1.0 : 0.0; }
-    double slope(double r2) const { return r2 < radius * radius ? -radius / (r2 * std::sqrt(r2)) : 0.0; }
-    double curvature(double r2) const { return -3.0 * slope(r2); }
+    template <class Real>
+    Real weight(Real r2) const {
+        const Real re = static_cast<Real>(radius);
+        return r2 < re * re ? re / std::sqrt(r2) - Real{1} : Real{0};
+    }
+    template <class Real>
+    Real slope(Real r2) const {
+        const Real re = static_cast<Real>(radius);
+        return r2 < re * re ? -re / (r2 * std::sqrt(r2)) : Real{0};
+    }
+    template <class Real>
+    Real curvature(Real r2) const {
+        return Real{-3} * slope(r2);
+    }
 };
 
 /// w = (1 - q)^4 (1 + 4 q), q = r/re: Wendland C2 without its factor.
 struct WendlandKernel {
     double radius;  ///< re, m
-    double weight(double r2) const {
-        const double q = std::sqrt(r2) / radius;
-        const double inside = q < 1.0 ? 1.0 - q : 0.0;
-        const double square = inside * inside;
-        return square * square * (1.0 + 4.0 * q);
+    template <class Real>
+    Real weight(Real r2) const {
+        const Real q = std::sqrt(r2) * static_cast<Real>(1 / radius);
+        const Real inside = q < Real{1} ? Real{1} - q : Real{0};
+        const Real square = inside * inside;
+        return square * square * (Real{1} + Real{4} * q);
     }
-    double slope(double r2) const {
-        const double q = std::sqrt(r2) / radius;
-        const double inside = q < 1.0 ? 1.0 - q : 0.0;
-        return -20.0 * inside * inside * inside / (radius * radius);
+    template <class Real>
+    Real slope(Real r2) const {
+        const Real q = std::sqrt(r2) * static_cast<Real>(1 / radius);
+        const Real inside = q < Real{1} ? Real{1} - q : Real{0};
+        return static_cast<Real>(-20 / (radius * radius)) * inside * inside * inside;
     }
-    double curvature(double r2) const {
-        const double q = std::sqrt(r2) / radius;
-        const double inside = q < 1.0 ? 1.0 - q : 0.0;
-        return 60.0 * q * inside * inside / (radius * radius);
+    template <class Real>
+    Real curvature(Real r2) const {
+        const Real q = std::sqrt(r2) * static_cast<Real>(1 / radius);
+        const Real inside = q < Real{1} ? Real{1} - q : Real{0};
+        return static_cast<Real>(60 / (radius * radius)) * q * inside * inside;
     }
 };
 

@@ -1,7 +1,7 @@
 /// Aggregation multigrid as a preconditioner: one symmetric V-cycle, Gauss-Seidel forwards down and backwards
 /// up.
 ///
-/// Unknowns are gathered by place: boxes of at least 2/3 of the kernel's radius, then boxes of boxes.
+/// Unknowns are gathered by place: boxes of about the kernel's radius, then boxes of boxes.
 /// Prolongation is constant over a box, coarse matrices are Galerkin products, the coarse correction is
 /// enlarged by 1.6 (constant prolongation underestimates it), the coarsest level is solved directly. All of
 /// it is done in float: a preconditioner decides how fast a solve converges, not what it converges to.

@@ -124,7 +124,7 @@ void NearField::solve_pressure(double step) {
         }
         report =
             solver_.solve(equation.matrix, equation.right_hand_side, unknown_pressure_, unknown_x_,
-                          unknown_z_, std::max(2.0, 0.5 * settings.kernel_radius_ratio) * settings.spacing);
+                          unknown_z_, std::max(2.5, 0.5 * settings.kernel_radius_ratio) * settings.spacing);
     }
     counts.iterations += report.iterations;
     if (!report.is_converged) ++counts.unconverged;
