@@ -171,6 +171,18 @@ void Multigrid::apply(const std::vector<double>& right, std::vector<double>& res
     for (std::size_t i = 0; i < right.size(); ++i) result[i] = static_cast<double>(finest.result[i]);
 }
 
+double Multigrid::bytes_per_cycle() const {
+    double bytes = 24.0 * static_cast<double>(finest_->rows());  // right and result between double and float
+    for (std::size_t level = 0; level < depth_; ++level) {
+        const SparseMatrix& matrix = matrix_of(level);
+        // Every entry is read twice: half of them forwards, half for what is left, all backwards. Per row:
+        // forwards 20 (start, upper, right, inverse, x), what is left 16, the coarse correction 12,
+        // backwards 24.
+        bytes += 16.0 * matrix.start[matrix.rows()] + 72.0 * static_cast<double>(matrix.rows());
+    }
+    return bytes;
+}
+
 /// Sweeps add a row's entries so that the unknown found last comes last: the next row's sum is under way
 /// before.
 void Multigrid::cycle(std::size_t level) {

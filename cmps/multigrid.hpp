@@ -22,6 +22,8 @@ class Multigrid {
                double box);
     /// result = M^-1 right
     void apply(const std::vector<double>& right, std::vector<double>& result);
+    /// What one cycle moves through memory when no array stays in cache, bytes.
+    double bytes_per_cycle() const;
 
  private:
     struct Level {

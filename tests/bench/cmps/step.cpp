@@ -1,7 +1,10 @@
-/// Hot paths of a time step: ns per particle-step on still and sloshing water.
+/// Hot paths of a time step on sloshing water: time per particle-step (walls counted), bytes moved a second
+/// by those that are bound by memory, against the machine's triad.
 #include <benchmark/benchmark.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <fstream>
 #include <memory>
 
 #include "tests/support/cmps_tank.hpp"
@@ -18,7 +21,7 @@ std::unique_ptr<cmps::NearField> swinging_tank(std::int64_t count) {
             length, spacing, [](double x) { return depth + 0.03 * std::cos(M_PI * x / length); }, 0.5));
     field->settle(20, depth);
     double time = 0;
-    for (int k = 0; k < 20; ++k) {
+    for (int k = 0; k < (count > 200000 ? 5 : 20); ++k) {
         const double step = field->largest_step();
         field->advance(time, step);
         time += step;
@@ -28,13 +31,45 @@ std::unique_ptr<cmps::NearField> swinging_tank(std::int64_t count) {
 
 void report(benchmark::State& state, const cmps::NearField& field) {
     const auto work = static_cast<double>(state.iterations()) * static_cast<double>(field.particles.size());
-    state.counters["ns_per_particle"] =
-        benchmark::Counter(work * 1e-9, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    state.counters["per_particle"] =
+        benchmark::Counter(work, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
     state.counters["particles"] = static_cast<double>(field.particles.size());
 }
 
+void report_bytes(benchmark::State& state, double bytes_each) {
+    state.SetBytesProcessed(static_cast<std::int64_t>(static_cast<double>(state.iterations()) * bytes_each));
+}
+
+/// Memory this process holds now, bytes.
+double resident_memory() {
+    std::ifstream file("/proc/self/statm");
+    double all = 0, resident = 0;
+    file >> all >> resident;
+    return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+/// Product with the matrix: entries 8 bytes, a row's start, diagonal, x and y.
+double product_bytes(const cmps::SparseMatrix& matrix) {
+    return 8.0 * matrix.start.back() + 28.0 * static_cast<double>(matrix.rows());
+}
+
+/// a = b + s c on arrays far beyond the caches, counted as STREAM does: what memory can give.
+void triad(benchmark::State& state) {
+    const auto count = static_cast<std::size_t>(state.range(0));
+    std::vector<double> a(count, 1.0), b(count, 2.0), c(count, 3.0);
+    for (auto _ : state) {
+        for (std::size_t i = 0; i < count; ++i) a[i] = b[i] + 0.5 * c[i];
+        benchmark::DoNotOptimize(a.data());
+        benchmark::ClobberMemory();
+    }
+    report_bytes(state, 24.0 * static_cast<double>(count));
+}
+
 void whole_step(benchmark::State& state) {
+    const double before = resident_memory();
     const auto field = swinging_tank(state.range(0));
+    state.counters["bytes_per_particle"] =
+        (resident_memory() - before) / static_cast<double>(field->particles.size());
     double time = 1;
     for (auto _ : state) {
         const double step = field->largest_step();
@@ -89,29 +124,62 @@ void matrix_product(benchmark::State& state) {
         cmps::multiply(matrix, x, y);
         benchmark::DoNotOptimize(y.data());
     }
-    const double entries = matrix.start.back(), rows = static_cast<double>(matrix.rows());
-    state.SetBytesProcessed(
-        static_cast<std::int64_t>(static_cast<double>(state.iterations()) * (12 * entries + 28 * rows)));
+    report_bytes(state, product_bytes(matrix));
+    report(state, *field);
+}
+
+void free_surface(benchmark::State& state) {
+    const auto field = swinging_tank(state.range(0));
+    for (auto _ : state)
+        cmps::find_free_surface(field->particles, field->search.lists(), field->interactions,
+                                field->lattice.number_density, field->place);
+    report(state, *field);
+}
+
+/// Places of the unknowns, m.
+void places_of_unknowns(const cmps::NearField& field, std::vector<double>& x, std::vector<double>& z) {
+    for (const std::int32_t row : field.equation.row_of) {
+        const std::size_t i = field.particles.first_wall() + static_cast<std::size_t>(row);
+        x.push_back(field.particles.x[i]), z.push_back(field.particles.z[i]);
+    }
+}
+
+void multigrid_setup(benchmark::State& state) {
+    const auto field = swinging_tank(state.range(0));
+    std::vector<double> at_x, at_z;
+    places_of_unknowns(*field, at_x, at_z);
+    cmps::Multigrid multigrid;
+    for (auto _ : state) multigrid.build(field->equation.matrix, at_x, at_z, 2.5 * field->settings.spacing);
+    report(state, *field);
+}
+
+void multigrid_cycle(benchmark::State& state) {
+    const auto field = swinging_tank(state.range(0));
+    std::vector<double> at_x, at_z;
+    places_of_unknowns(*field, at_x, at_z);
+    cmps::Multigrid multigrid;
+    multigrid.build(field->equation.matrix, at_x, at_z, 2.5 * field->settings.spacing);
+    std::vector<double> result(at_x.size());
+    for (auto _ : state) multigrid.apply(field->equation.right_hand_side, result);
+    report_bytes(state, multigrid.bytes_per_cycle());
     report(state, *field);
 }
 
 void pressure_solve(benchmark::State& state, bool is_multigrid) {
     const auto field = swinging_tank(state.range(0));
     const cmps::PressureEquation& equation = field->equation;
-    const cmps::Particles& particles = field->particles;
     std::vector<double> at_x, at_z, start;
-    for (const std::int32_t row : equation.row_of) {
-        const std::size_t i = particles.first_wall() + static_cast<std::size_t>(row);
-        at_x.push_back(particles.x[i]), at_z.push_back(particles.z[i]),
-            start.push_back(0.97 * particles.pressure[i]);
-    }
+    places_of_unknowns(*field, at_x, at_z);
+    for (const std::int32_t row : equation.row_of)
+        start.push_back(
+            0.97 * field->particles.pressure[field->particles.first_wall() + static_cast<std::size_t>(row)]);
     cmps::PressureSolver solver(1e-3, 2000);
     std::vector<double> x;
     std::size_t iterations = 0;
     for (auto _ : state) {
         x = start;
         iterations = (is_multigrid ? solver.solve(equation.matrix, equation.right_hand_side, x, at_x, at_z,
-                                                  2 * field->settings.spacing)
+                                                  2.5 * field->settings.spacing)
                                    : solver.solve(equation.matrix, equation.right_hand_side, x))
                          .iterations;
     }
@@ -119,18 +187,30 @@ void pressure_solve(benchmark::State& state, bool is_multigrid) {
     state.counters["iterations"] = static_cast<double>(iterations);
 }
 
-BENCHMARK(whole_step)->Arg(1000)->Arg(5000)->Arg(20000)->Arg(100000)->Unit(benchmark::kMillisecond);
-BENCHMARK(neighbour_lists)->Arg(5000)->Arg(100000)->Unit(benchmark::kMicrosecond);
-BENCHMARK(pair_geometry)->Arg(5000)->Arg(100000)->Unit(benchmark::kMicrosecond);
-BENCHMARK(assembly)->Arg(5000)->Arg(100000)->Unit(benchmark::kMicrosecond);
-BENCHMARK(gradient)->Arg(5000)->Arg(100000)->Unit(benchmark::kMicrosecond);
-BENCHMARK(matrix_product)->Arg(5000)->Arg(100000)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(pressure_solve, cholesky, false)
+BENCHMARK(triad)->Arg(20'000'000)->Unit(benchmark::kMillisecond);
+BENCHMARK(whole_step)
+    ->Arg(1000)
     ->Arg(5000)
+    ->Arg(10000)
     ->Arg(20000)
     ->Arg(100000)
+    ->Arg(1000000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(neighbour_lists)->Arg(5000)->Arg(100000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(pair_geometry)->Arg(5000)->Arg(100000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(free_surface)->Arg(5000)->Arg(100000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(assembly)->Arg(5000)->Arg(100000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(gradient)->Arg(5000)->Arg(100000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(matrix_product)->Arg(5000)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(multigrid_setup)->Arg(5000)->Arg(100000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(multigrid_cycle)->Arg(5000)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(pressure_solve, cholesky, false)
+    ->Arg(1000)
+    ->Arg(5000)
+    ->Arg(20000)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(pressure_solve, multigrid, true)
+    ->Arg(1000)
     ->Arg(5000)
     ->Arg(20000)
     ->Arg(100000)
