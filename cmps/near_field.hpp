@@ -54,7 +54,7 @@ class NearField {
     /// Spreads the particles evenly by shifting alone (before the first step), then sets hydrostatic
     /// pressure.
     void settle(int sweeps, double surface_level);
-    /// Largest step now, s: 0.2 l0/u, 0.4 l0/sqrt(g h), 0.25 sqrt(l0/a).
+    /// Largest step now, s: courant l0/u, 0.4 l0/sqrt(g h), 0.25 sqrt(l0/a).
     double largest_step() const;
     /// One step from `time` to `time + step`. Throws RunError when it goes wrong.
     void advance(double time, double step);

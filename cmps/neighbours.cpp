@@ -27,18 +27,39 @@ struct NeighbourSearch::Cells {
 };
 
 bool NeighbourSearch::update(Particles& particles, const std::vector<std::vector<double>*>& companions) {
-    if (is_valid_ && built_x_.size() == particles.size()) {
-        const double allowed = 0.25 * skin_ * skin_;  // (half the skin) squared
-        double largest = 0;
-#pragma omp simd reduction(max : largest)
-        for (std::size_t i = 0; i < particles.size(); ++i) {
-            const double dx = particles.x[i] - built_x_[i], dz = particles.z[i] - built_z_[i];
-            const double moved = dx * dx + dz * dz;
-            largest = moved > largest ? moved : largest;
-        }
-        if (largest < allowed) return false;
-    }
+    if (is_valid_ && built_x_.size() == particles.size() && lists_hold(particles)) return false;
     build(particles, companions);
+    return true;
+}
+
+/// Two particles that were not listed were a skin out of reach. What counts is how far they have moved
+/// against each other, and only those near each other: water that moves together keeps its lists. The water
+/// is cut into strips in x, wider than any link; the displacements of two strips side by side lie in a box,
+/// whose diagonal no pair of theirs exceeds.
+bool NeighbourSearch::lists_hold(const Particles& particles) {
+    const double width = 2 * (radius_ + skin_), per_width = 1 / width;
+    Displacements none;
+    displacements_.assign(static_cast<std::size_t>((right_ - left_) * per_width) + 1, none);
+    std::size_t strip = 0;
+    Displacements here = none;
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+        const auto now = static_cast<std::size_t>((built_x_[i] - left_) * per_width);
+        if (now != strip) {  // seldom: the fluid stands in the order of x
+            displacements_[strip] = here;
+            here = displacements_[strip = now];
+        }
+        here.include(particles.x[i] - built_x_[i], particles.z[i] - built_z_[i]);
+    }
+    if (particles.size() > 0) displacements_[strip] = here;
+    const double farthest2 = 0.25 * radius_ * radius_;  // strips farther apart cannot have met within this
+    for (std::size_t s = 0; s < displacements_.size(); ++s) {
+        Displacements both = displacements_[s];
+        if (s + 1 < displacements_.size()) both.include(displacements_[s + 1]);
+        if (both.x1 < both.x0) continue;  // nobody
+        const double dx = both.x1 - both.x0, dz = both.z1 - both.z0;
+        const double x = std::max(-both.x0, both.x1), z = std::max(-both.z0, both.z1);
+        if (!(dx * dx + dz * dz < skin_ * skin_ && x * x + z * z < farthest2)) return false;
+    }
     return true;
 }
 
@@ -66,6 +87,8 @@ void NeighbourSearch::build(Particles& particles, const std::vector<std::vector<
     sort_boundary(particles, cells);
     built_x_ = particles.x;
     built_z_ = particles.z;
+    const auto [leftmost, rightmost] = std::minmax_element(built_x_.begin(), built_x_.end());
+    left_ = *leftmost, right_ = *rightmost;
 
     const double* const x = particles.x.data();
     const double* const z = particles.z.data();

@@ -200,7 +200,7 @@ void read_numerics(const common::SceneFile& file, const Section& section, Scene&
     settings.stabilisation =
         section.number("stabilisation", "-", "pairs nearer than this many l0 are pushed apart, 0: none",
                        Range::between(0, 0.98), 0.9);
-    settings.courant = section.number("courant", "-", "largest u dt / l0", Range::between(0.001, 0.5), 0.2);
+    settings.courant = section.number("courant", "-", "largest u dt / l0", Range::between(0.001, 0.5), 0.3);
     const auto gravity = section.numbers("gravity", "m/s2", "x and z component", 2, Range::any(),
                                          std::vector<double>{0.0, -9.81});
     settings.gravity_x = gravity[0], settings.gravity_z = gravity[1];

@@ -33,7 +33,7 @@ struct Settings {
     std::size_t multigrid_from = 1500;  ///< unknowns from which multigrid is faster than incomplete Cholesky
     double shifting = 0.3;              ///< coefficient of particle shifting, 0: none
     double stabilisation = 0.9;         ///< pairs nearer than this many l0 are pushed apart, 0: none
-    double courant = 0.2;               ///< u dt / l0
+    double courant = 0.3;               ///< u dt / l0
     double gravity_x = 0, gravity_z = -9.81;  ///< m/s2
     double depth = 0;  ///< largest depth of water, m: sets the wave speed in the time step
 };

@@ -42,14 +42,46 @@ TEST(Neighbours, ListsAreThoseOfABruteForceSearch) {
     }
 }
 
-TEST(Neighbours, ListsLiveUntilAParticleHasMovedHalfTheSkin) {
+TEST(Neighbours, ListsLiveUntilParticlesHaveMovedByTheSkinAgainstEachOther) {
     cmps::Particles particles = jittered_tank();
     cmps::NeighbourSearch search(0.026, 0.003);
     search.update(particles, {});
-    particles.x.back() += 0.0014;
+    particles.x.back() += 0.0029;
     EXPECT_FALSE(search.update(particles, {}));
     particles.x.back() += 0.0002;
     EXPECT_TRUE(search.update(particles, {}));
+    // all of it together: no pair has changed
+    for (double& x : particles.x) x += 0.0060;
+    EXPECT_FALSE(search.update(particles, {}));
+}
+
+TEST(Neighbours, ListsThatHoldMissNoPairWithinTheRadius) {
+    cmps::Particles particles = jittered_tank();
+    cmps::NeighbourSearch search(0.026, 0.003);
+    std::mt19937 random(7);
+    std::normal_distribution<double> noise(0, 0.0001);
+    int held = 0;
+    for (int step = 0; step < 40; ++step) {
+        for (std::size_t i = particles.first_fluid(); i < particles.size(); ++i) {
+            // shear, strain and drops that run through the rest
+            particles.x[i] += 0.003 * particles.z[i] + noise(random) + (i % 97 == 0 ? 0.0007 : 0.0);
+            particles.z[i] += 0.002 * (0.15 - particles.x[i]) + noise(random);
+        }
+        held += !search.update(particles, {});
+        const auto& lists = search.lists();
+        const std::size_t first = particles.first_wall();
+        for (std::size_t r = 0; r < particles.size() - first; ++r) {
+            const std::set<std::int32_t> listed(lists.neighbour.begin() + lists.start[r],
+                                                lists.neighbour.begin() + lists.start[r + 1]);
+            for (std::size_t j = 0; j < particles.size(); ++j) {
+                const double dx = particles.x[j] - particles.x[first + r],
+                             dz = particles.z[j] - particles.z[first + r];
+                const bool is_near = j != first + r && dx * dx + dz * dz < 0.026 * 0.026;
+                ASSERT_TRUE(!is_near || listed.contains(static_cast<std::int32_t>(j))) << "step " << step;
+            }
+        }
+    }
+    EXPECT_GT(held, 10);  // otherwise nothing was tried
 }
 
 TEST(Neighbours, ReorderingCarriesEveryArrayAlong) {
