@@ -29,10 +29,16 @@ void decide_effects(const common::SceneFile& file, Scene& scene) {
            : is_wave_driven ? "cmps.boundary = \"paper\""
                             : "not driven by waves");
 
+    decide("absorption", has_zone && scene.absorption > 0,
+           !is_wave_driven        ? "not driven by waves"
+           : !has_zone            ? "cmps.boundary = \"paper\""
+           : scene.absorption > 0 ? "the wall takes in what comes back to it"
+                                  : "cmps.absorption = 0");
+
     const bool has_overflow = is_wave_driven && scene.boundary != Boundary::relaxation;
     decide("wall_overflow", has_overflow,
            has_overflow     ? "cmps.boundary asks for it"
-           : is_wave_driven ? "the relaxation zone takes reflected waves"
+           : is_wave_driven ? "wall and relaxation zone take reflected waves"
                             : "not driven by waves");
 
     // boundary layer of a wave of about a second: sqrt(nu T)

@@ -50,25 +50,14 @@ double surface_elevation(const Particles& particles, const Solid& solid, double 
     return bottom + wetted;
 }
 
-double pressure_at(const Particles& particles, double spacing, double x, double z, double diameter) {
+double pressure_in_water(const Particles& particles, double spacing, double x, double z, double diameter) {
     const double reach = std::max(0.5 * diameter, spacing);
-    double sum = 0, weights = 0, water_sum = 0, water_weights = 0;
-    for (std::size_t j = particles.first_wall(); j < particles.size(); ++j) {
-        const double dx = particles.x[j] - x, dz = particles.z[j] - z;
-        if (particles.is_fluid(j)) {
-            const double r = std::hypot(dx, dz), w = std::max(0.0, 1.0 - r / reach);
-            water_sum += w * particles.pressure[j], water_weights += w;
-        } else {
-            // walls stand half a spacing behind their face: distance is taken along it
-            const double across = dx * particles.normal_x[j] + dz * particles.normal_z[j];
-            const double along = -dx * particles.normal_z[j] + dz * particles.normal_x[j];
-            if (std::abs(across + 0.5 * spacing) > 0.6 * spacing) continue;
-            const double w = std::max(0.0, 1.0 - std::abs(along) / reach);
-            sum += w * particles.pressure[j], weights += w;
-        }
+    double sum = 0, weights = 0;
+    for (std::size_t j = particles.first_fluid(); j < particles.size(); ++j) {
+        const double w = std::max(0.0, 1.0 - std::hypot(particles.x[j] - x, particles.z[j] - z) / reach);
+        sum += w * particles.pressure[j], weights += w;
     }
-    if (weights > 0) return sum / weights;
-    return water_weights > 0 ? water_sum / water_weights : 0.0;
+    return weights > 0 ? sum / weights : 0.0;
 }
 
 std::array<double, 2> velocity_at(const Particles& particles, double spacing, double x, double z) {
@@ -87,16 +76,6 @@ std::array<double, 2> velocity_at(const Particles& particles, double spacing, do
     }
     const double scale = spacing * spacing;
     return {linear_fit(m, u, scale), linear_fit(m, w, scale)};
-}
-
-std::array<double, 2> force_on(const Particles& particles, double spacing, std::int32_t body) {
-    std::array<double, 2> force = {0, 0};
-    for (std::size_t j = particles.first_wall(); j < particles.first_fluid(); ++j)
-        if (particles.body[j] == body) {
-            force[0] -= particles.pressure[j] * particles.normal_x[j] * spacing;
-            force[1] -= particles.pressure[j] * particles.normal_z[j] * spacing;
-        }
-    return force;
 }
 
 double volume_by_surface(const Particles& particles, const Solid& solid, double spacing, double x0, double x1,

@@ -53,11 +53,14 @@ struct Upstream {
     common::WindowReader reader;
     cmps::WaveField waves;
 
+    /// How far behind the wall the waves are needed, m; all over the near field when it starts in waves.
+    static double reach(const cmps::Scene& scene) {
+        if (scene.start) return scene.onshore - scene.offshore;
+        return 0.5 + (scene.has_effect("relaxation_zone") ? scene.relaxation_length : 0.0);
+    }
     Upstream(const common::StageCommand& command, const cmps::Scene& scene)
         : reader(command.upstream, "boussinesq", wave_datasets, command.follow),
-          waves(
-              reader, scene.offshore - 0.5,
-              scene.offshore + 0.5 + (scene.has_effect("relaxation_zone") ? scene.relaxation_length : 0.0)) {
+          waves(reader, scene.offshore - 0.5, scene.offshore + reach(scene)) {
         waves.check_depth([&](double x) { return -cmps::bottom_level(scene, x); });
         if (!command.follow && reader.available_until() < scene.time.end - 1e-9)
             throw common::InputError(

@@ -265,11 +265,11 @@ void read_drive(const Section& section, Scene& scene, double depth) {
     scene.relaxation_length = section.number("relaxation_length", "m", "of the zone behind the wall",
                                              Range::positive(), 3.0 * depth);
     scene.relaxation_strength =
-        section.number("relaxation_strength", "1/s", "at the wall", Range::positive(), 8.0);
+        section.number("relaxation_strength", "1/s", "at the wall", Range::positive(), 2.0);
     scene.absorption = section.number("absorption", "-", "share of what comes back that the wall takes in",
-                                      Range::between(0, 1), 0.0);
+                                      Range::between(0, 1), 1.0);
     scene.return_time = section.number("return_time", "s", "in which the wall comes back to its place",
-                                       Range::positive(), 5.0);
+                                       Range::positive(), 10.0);
     scene.arrival_threshold =
         section.number("arrival_threshold", "m", "surface elevation at the wall that counts as arrival",
                        Range::positive(), 0.005 * depth);

@@ -35,8 +35,7 @@ Simulation::Simulation(const Scene& scene, WaveField* waves, double start)
     field_->settle(settling_sweeps, highest_water(scene_));
     compose_effects();
     balance_.emplace(scene_, solid_, *field_);
-    output_.emplace(scene_, solid_, basin_ ? rear_of_structure(scene_) : scene_.onshore,
-                    balance_->initial_fluid());
+    output_.emplace(scene_, solid_, field_->particles, basin_ ? rear_of_structure(scene_) : scene_.onshore);
 }
 
 template <class Kind, class... Arguments>
@@ -70,8 +69,8 @@ void Simulation::add_offshore_boundary() {
         return returning_wall_velocity(waves_->mean_velocity(x) + taken, x - scene_.offshore,
                                        scene_.return_time);
     });
-    if (scene_.absorption > 0)
-        absorption_ = add_effect<Absorption>(*waves_, *wall_, scene_.celerity, scene_.absorption,
+    if (scene_.has_effect("absorption"))
+        absorption_ = add_effect<Absorption>(*waves_, *wall_, solid_, scene_.celerity, scene_.absorption,
                                              0.5 * scene_.settings.depth);
     if (scene_.has_effect("wall_overflow"))
         overflow_ = add_effect<WallOverflow>(*field_, *waves_, *wall_, scene_.crest_lowering,

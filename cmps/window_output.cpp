@@ -25,12 +25,16 @@ common::Dataset times(const Series& series) {
 
 }  // namespace
 
-WindowOutput::WindowOutput(const Scene& scene, const Solid& solid, double x1, std::size_t initial_fluid)
-    : scene_(scene), solid_(solid), initial_fluid_(initial_fluid) {
+WindowOutput::WindowOutput(const Scene& scene, const Solid& solid, const Particles& particles, double x1)
+    : scene_(scene), solid_(solid), initial_fluid_(particles.fluid) {
     if (scene_.has_flow) flow_.emplace(scene_.flow, solid_, scene_.settings.spacing);
     for (const common::Gauge& gauge : scene_.gauges)
         if (gauge.x >= scene_.offshore && gauge.x <= x1) gauges_.push_back(gauge);
     gauge_series_.resize(gauges_.size());
+    const bool reads_pressure = std::any_of(gauges_.begin(), gauges_.end(), [](const common::Gauge& gauge) {
+        return gauge.kind == common::Gauge::Kind::pressure;
+    });
+    if (reads_pressure || !scene_.structure.empty()) faces_.emplace(particles, solid_, scene_.settings);
 }
 
 /// Calls visit(series, interval) for everything that is recorded.
@@ -67,8 +71,7 @@ void WindowOutput::record(double time, const NearField& field, std::size_t overt
     if (is_due(particle_series_, time)) record_particles(particles);
     if (is_due(force_series_, time))
         for (std::size_t k = 0; k < scene_.structure.size(); ++k)
-            for (const double component :
-                 force_on(particles, scene_.settings.spacing, static_cast<std::int32_t>(k)))
+            for (const double component : faces_->force_on(particles, static_cast<std::int32_t>(k)))
                 force_series_.values.push_back(static_cast<float>(component));
     for (std::size_t g = 0; g < gauges_.size(); ++g)
         if (is_due(gauge_series_[g], time)) record_gauge(gauges_[g], particles, overtopped, gauge_series_[g]);
@@ -114,8 +117,9 @@ void WindowOutput::record_gauge(const common::Gauge& gauge, const Particles& par
             series.values.push_back(static_cast<float>(surface_elevation(particles, solid_, l0, gauge.x)));
             break;
         case common::Gauge::Kind::pressure:
-            series.values.push_back(
-                static_cast<float>(pressure_at(particles, l0, gauge.x, gauge.z, gauge.diameter)));
+            series.values.push_back(static_cast<float>(
+                faces_->mean_around(particles, gauge.x, gauge.z, gauge.diameter)
+                    .value_or(pressure_in_water(particles, l0, gauge.x, gauge.z, gauge.diameter))));
             break;
         case common::Gauge::Kind::velocity:
             for (const double component : velocity_at(particles, l0, gauge.x, gauge.z))

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "cmps/face_pressure.hpp"
 #include "cmps/flow_grid.hpp"
 #include "cmps/near_field.hpp"
 #include "cmps/scene.hpp"
@@ -24,8 +25,8 @@ struct Series {
 
 class WindowOutput {
  public:
-    /// Gauges in [scene.offshore, x1] are recorded; `initial_fluid`: particles that get a place of their own.
-    WindowOutput(const Scene& scene, const Solid& solid, double x1, std::size_t initial_fluid);
+    /// Gauges in [scene.offshore, x1] are recorded. `particles`: those of the start.
+    WindowOutput(const Scene& scene, const Solid& solid, const Particles& particles, double x1);
 
     /// Forgets the last window's samples and notes when those of window `index` are due.
     void begin(const common::WindowClock& clock, std::int64_t index);
@@ -49,6 +50,7 @@ class WindowOutput {
     std::size_t initial_fluid_;
     common::Window window_;
     std::optional<FlowGrid> flow_;
+    std::optional<FacePressure> faces_;
     std::vector<common::Gauge> gauges_;
     Series flow_series_, particle_series_, force_series_;
     std::vector<Series> gauge_series_;

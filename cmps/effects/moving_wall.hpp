@@ -14,7 +14,7 @@ class MovingWall final : public Effect {
     /// m/s. The wall starts at `x`.
     MovingWall(double x, std::function<double(double, double, double)> velocity)
         : start_(x), velocity_(std::move(velocity)) {}
-    std::string name() const override { return "moving wall"; }
+    std::string name() const override { return "moving_wall"; }
     void begin_step(NearField& field, double time, double step) override;
     void end_step(NearField& field, double time, double step) override;
     std::vector<double> state() const override { return {displacement_, speed_}; }

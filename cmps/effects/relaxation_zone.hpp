@@ -16,7 +16,7 @@ class RelaxationZone final : public Effect {
     RelaxationZone(WaveField& waves, const MovingWall& wall, double length, double strength,
                    double return_time)
         : waves_(waves), wall_(wall), length_(length), strength_(strength), return_time_(return_time) {}
-    std::string name() const override { return "relaxation zone"; }
+    std::string name() const override { return "relaxation_zone"; }
     void end_step(NearField& field, double time, double step) override;
 
  private:

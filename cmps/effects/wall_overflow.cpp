@@ -16,24 +16,29 @@ WallOverflow::WallOverflow(NearField& field, WaveField& waves, const MovingWall&
                            double bottom)
     : waves_(waves), wall_(wall), crest_lowering_(crest_lowering), bottom_(bottom) {
     const Particles& particles = field.particles;
-    double top = bottom;
-    for (std::size_t i = 0; i < particles.first_fluid(); ++i)
-        if (particles.body[i] == body_moving_wall) members_.push_back(i), top = std::max(top, particles.z[i]);
-    for (const std::size_t i : members_)
-        below_crest_.push_back(top - particles.z[i] + 0.5 * field.settings.spacing);
+    const double l0 = field.settings.spacing;
+    const double height = waves.still_water_depth(wall.position()) - crest_lowering;
+    const double rows = std::max(1.0, std::round(height / l0));
+    for (std::size_t i = 0; i < particles.first_fluid(); ++i) {
+        if (particles.body[i] != body_moving_wall) continue;
+        const double row = std::round((particles.z[i] - bottom) / l0 - 0.5);
+        members_.push_back(i);
+        part_of_height_.push_back((row + 0.5) / rows);  // above 1: not needed
+    }
     waiting_.reserve(particles.fluid);
 }
 
-/// The wall's rows hang from its crest; those that would stand below the bed wait under it, out of every
-/// kernel's reach. The crest's own motion is no velocity: it pushes no water.
+/// The wall's rows spread evenly between bed and crest: none ever appears or goes, which the water would
+/// feel as a blow. Their motion is no velocity: it pushes no water.
 void WallOverflow::begin_step(NearField& field, double time, double step) {
     waves_.go_to(time + step);
     const double x = wall_.position(), l0 = field.settings.spacing;
     const double crest = waves_.surface_elevation(x) - crest_lowering_;  // eq. (7)
+    const double height = std::max(crest - bottom_, l0);
     const double parked = bottom_ - 2.0 * (field.settings.kernel_radius_ratio + 4.0) * l0;
     for (std::size_t m = 0; m < members_.size(); ++m) {
-        const double z = crest - below_crest_[m];
-        field.particles.z[members_[m]] = z > bottom_ + 0.3 * l0 ? z : parked - below_crest_[m];
+        const double part = part_of_height_[m];
+        field.particles.z[members_[m]] = part < 1.0 ? bottom_ + part * height : parked - part * height;
     }
 }
 
@@ -49,6 +54,21 @@ void WallOverflow::end_step(NearField& field, double time, double) {
     if (waiting_.empty()) return;
     waves_.go_to(time);
     put_back(field);
+}
+
+/// The lowest level from z on at which no particle is nearer than `distance`: one set among others would be
+/// thrown out again, with a blow that the whole water feels.
+double WallOverflow::free_level(const Particles& particles, double x, double z, double distance) {
+    for (bool is_free = false; !is_free;) {
+        is_free = true;
+        for (std::size_t i = particles.first_fluid(); i < particles.size(); ++i) {
+            const double dx = particles.x[i] - x, dz = particles.z[i] - z;
+            if (std::abs(dx) >= distance || dx * dx + dz * dz >= distance * distance * (1 - 1e-9)) continue;
+            z = particles.z[i] + std::sqrt(distance * distance - dx * dx);
+            is_free = false;
+        }
+    }
+    return z;
 }
 
 void WallOverflow::put_back(NearField& field) {
@@ -72,9 +92,12 @@ void WallOverflow::put_back(NearField& field) {
             const double above = column_top_[c] + 0.5 * l0 - waves_.surface_elevation(x);
             if (above < least) least = above, lowest = c;
         }
-        if (lowest == columns) return;
-        const double z = column_top_[lowest] + 0.95 * l0;
-        particles.add_fluid(x0 + (static_cast<double>(lowest) + 0.5) * l0, z, waiting_.back());
+        // water that left on a crest comes back where the surface has fallen below that of the waves, not
+        // before: put back at once it would only have been moved about
+        if (lowest == columns || least > -0.5 * l0) return;
+        const double x = x0 + (static_cast<double>(lowest) + 0.5) * l0;
+        const double z = free_level(particles, x, column_top_[lowest] + 0.95 * l0, 0.95 * l0);
+        particles.add_fluid(x, z, waiting_.back());
         particles.u.back() = column_u_[lowest], particles.w.back() = column_w_[lowest];
         waiting_.pop_back();
         column_top_[lowest] = nothing;  // one a column and step

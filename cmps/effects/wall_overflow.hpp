@@ -28,12 +28,13 @@ class WallOverflow final : public Effect {
 
  private:
     void put_back(NearField& field);
+    static double free_level(const Particles& particles, double x, double z, double distance);
     WaveField& waves_;
     const MovingWall& wall_;
     double crest_lowering_, bottom_;
-    std::vector<std::size_t> members_;   // boundary particles of the wall
-    std::vector<double> below_crest_;    // their depth below the crest, m
-    std::vector<std::int32_t> waiting_;  // identities
+    std::vector<std::size_t> members_;    // boundary particles of the wall
+    std::vector<double> part_of_height_;  // their level, of the wall's height
+    std::vector<std::int32_t> waiting_;   // identities
     std::vector<double> column_top_, column_u_, column_w_;
     std::size_t passed_ = 0;
 };

@@ -50,10 +50,10 @@ def still_water():
         return
     t, level = run.gauge("level")
     _, pressure = run.gauge("floor", "pressure")
-    late = pressure[len(pressure) // 2:] / (1000 * 9.81 * (0.3 + 0.0075))
+    late = pressure[len(pressure) // 2:] / (1000 * 9.81 * 0.3)
     drift = (np.mean(level[-50:]) - np.mean(level[:50])) / 0.3
     expect(abs(drift) < 0.02, f"still water: level drift {drift:+.4f} (bound 0.02)")
-    expect(abs(np.mean(late) - 1) < 0.02, f"still water: floor pressure {np.mean(late):.4f} rho g h (bound 2 %)")
+    expect(abs(np.mean(late) - 1) < 0.01, f"still water: floor pressure {np.mean(late):.4f} rho g h (bound 1 %)")
     expect(np.std(late) < 0.01, f"still water: noise {np.std(late):.4f} rho g h (bound 0.01)")
     expect(run.invariant("largest_energy_gain") < 0.005, f"still water: energy gain {run.invariant('largest_energy_gain'):.5f} (bound 0.005)")
 

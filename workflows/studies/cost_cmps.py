@@ -95,7 +95,7 @@ def series(folder, gauge, quantity):
 
 def still_error(folder, spacing):
     _, p = series(folder, "floor", "pressure")
-    p = p[len(p) // 2:] / (1000 * 9.81 * (0.3 + 0.5 * spacing))
+    p = p[len(p) // 2:] / (1000 * 9.81 * 0.3)
     return float(np.sqrt(np.mean((p - 1) ** 2)))
 
 

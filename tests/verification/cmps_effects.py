@@ -1,0 +1,194 @@
+"""Each optional effect of cmps: a scene that needs it goes wrong without it, one that does not is the same with it; what it costs.
+
+Shares of time are those of run.json. Particle flow is chaotic: two runs whose steps differ agree at gauges to a tenth of a spacing or
+so, not in their bits; runs in which an effect never acts agree bit for bit.
+"""
+import os
+import sys
+
+import numpy as np
+
+from cmps_program import FOLDER, Run, expect, finish
+from cmps_waves import write_waves
+
+PERIOD, DEPTH, HEIGHT = 1.65, 0.4, 0.06
+
+
+def flume(end, onshore, more="", gauges="", effects="", over_depth=8):
+    return f"""
+title = "flume"
+[time]
+end = {end}
+window = 1.0
+[flume]
+bed = [[0.0, {-DEPTH}], [60.0, {-DEPTH}]]
+[gauges]
+{gauges}
+[cmps]
+offshore = 25.0
+onshore = {onshore}
+particle_spacing = {DEPTH / over_depth}
+{more}
+[effects]
+{effects}
+"""
+
+
+def share(run, effect):
+    phases = run.record["phases"]
+    seconds = {name: value["seconds"] if isinstance(value, dict) else value for name, value in phases.items()}
+    return seconds.get(effect, 0.0) / sum(seconds.values())
+
+
+def rms_difference(a, b, name, begin, end):
+    (ta, ea), (tb, eb) = a.gauge(name), b.gauge(name)
+    t = np.arange(begin, end, 0.02)
+    return np.sqrt(np.mean((np.interp(t, ta, ea) - np.interp(t, tb, eb)) ** 2))
+
+
+def chance(name, scene, waves, run, gauge, begin, end):
+    """How far two runs drift apart whose pressure is solved to another tolerance: nothing else is to be asked of a gauge."""
+    other = Run(name, scene, waves=waves, sets=["cmps.tolerance=5e-4"])
+    return rms_difference(run, other, gauge, begin, end) / HEIGHT
+
+
+def start_at_arrival():
+    """Waves that reach the near field at t = 8 s: the still water before is not simulated, and nothing is lost by it."""
+    waves = os.path.join(FOLDER, "late_waves")
+    write_waves(waves, HEIGHT, PERIOD, DEPTH, 24, 35, 16, window=1.0, arrival=8.0)
+    scene = flume(16.0, 31.0, gauges="near = 26.5\nfar = 28.5", over_depth=12)
+    auto = Run("arrival_auto", scene, waves=waves)
+    early = Run("arrival_off", scene, waves=waves, sets=['effects.start_at_arrival="off"'])
+    begin, steps = auto.figure("start_time"), (auto.figure("steps"), early.figure("steps"))
+    expect(begin > 6.0 and early.figure("start_time") == 0.0, f"start_at_arrival: the near field starts at {begin:g} s, without it at 0")
+    expect(steps[0] < 0.65 * steps[1], f"start_at_arrival: {steps[0]:.0f} steps instead of {steps[1]:.0f}")
+    for name in ("near", "far"):
+        by_chance = chance(f"arrival_{name}", scene, waves, auto, name, 12.0, 16.0)
+        difference = rms_difference(auto, early, name, 12.0, 16.0) / HEIGHT
+        expect(difference < 1.5 * by_chance, f"start_at_arrival: gauge {name} differs by {difference:.3f} H rms from a run that began in still water at t = 0; by chance {by_chance:.3f} (bound: 1.5 times that)")
+        height = np.ptp(auto.gauge(name)[1][-200:]) / np.ptp(early.gauge(name)[1][-200:])
+        expect(abs(height - 1) < 0.25, f"start_at_arrival: gauge {name}, range {height:.3f} of that run's (bound 25 %: half a spacing)")
+    given = Run("arrival_given", scene, waves=waves, sets=["cmps.start=6.0"])
+    expect(given.figure("start_time") == 6.0 and not given.record["effects"]["start_at_arrival"]["on"], "start_at_arrival: off where cmps.start gives a time")
+
+
+def start_in_waves():
+    """cmps.start amid the waves, from the surface and velocities of the windows, against a run that has been there all along."""
+    waves = os.path.join(FOLDER, "long_waves")
+    write_waves(waves, HEIGHT, PERIOD, DEPTH, 24, 36, 11, window=1.0, arrival=0.5)
+    scene = flume(10.5, 35.0, gauges="near = 27.0\nfar = 29.0", over_depth=12)
+    whole = Run("whole", scene, waves=waves)
+    late = Run("late", scene, waves=waves, sets=["cmps.start=6.0"])
+    expect(late.status == 0, f"start in waves: exit {late.status} {late.messages.strip()}")
+    def harmonic(run, name):
+        t, eta = run.gauge(name)
+        use = (t >= 7.0) & (t < 7.0 + 2 * PERIOD)  # before the wall at 35 m answers: front there at 7.3 s, back at 29 m at 11.5 s
+        omega = 2 * np.pi / PERIOD
+        a, b, _ = np.linalg.lstsq(np.c_[np.cos(omega * t[use]), np.sin(omega * t[use]), np.ones(use.sum())], eta[use], rcond=None)[0]
+        return a + 1j * b
+
+    for name in ("near", "far"):
+        ratio = harmonic(late, name) / harmonic(whole, name)
+        difference = rms_difference(whole, late, name, 7.0, 10.3) / HEIGHT
+        # the windows' waves stand a few per cent higher than those the wall makes
+        expect(abs(abs(ratio) - 1) < 0.10, f"start in waves: gauge {name}, {abs(ratio):.3f} of the height of the run that came from still water (bound 10 %); rms difference {difference:.3f} H")
+        expect(abs(np.angle(ratio)) < 0.2, f"start in waves: gauge {name}, {np.angle(ratio):+.3f} rad apart (bound 0.2: a thirtieth of a period)")
+
+
+def open_boundaries():
+    """Regular waves against a wall, in a flume where what comes back meets the next wave in phase: antinode range over H."""
+    end = 30.0
+    waves = os.path.join(FOLDER, "against_wall")
+    write_waves(waves, HEIGHT, PERIOD, DEPTH, 24, 30, end, window=1.0)
+    onshore = 25.0 + 4.57
+    antinode = onshore - 0.5 * 2.95
+    gauges = f"antinode = {antinode}"
+
+    def antinode_range(name, boundary, effects):
+        run = Run(name, flume(end, onshore, f'boundary = "{boundary}"\ncrest_lowering = 0.075', gauges, effects), waves=waves)
+        expect(run.status == 0, f"{name}: exit {run.status} {run.messages.strip()}")
+        t, eta = run.gauge("antinode")
+        ranges = [np.ptp(eta[(t > end - (k + 1) * PERIOD) & (t <= end - k * PERIOD)]) for k in range(4)]
+        return np.mean(ranges) / HEIGHT, run
+
+    closed, _ = antinode_range("piston alone", "relaxation", 'relaxation_zone = "off"\nabsorption = "off"')
+    opened, run = antinode_range("relaxation", "relaxation", "")
+    paper, over = antinode_range("paper", "paper", "")
+    taken, _ = antinode_range("absorption", "relaxation", 'relaxation_zone = "off"')
+    expect(closed > 1.5 * opened, f"relaxation_zone: antinode {opened:.2f} H with it, {closed:.2f} H without zone and absorption (a piston alone)")
+    expect(opened < 2.3, f"relaxation_zone: antinode {opened:.2f} H, 2.0 when all that comes back leaves (bound 2.3)")
+    expect(taken < 2.5, f"absorption alone: antinode {taken:.2f} H (bound 2.5)")
+    expect(closed > 1.2 * paper, f"wall_overflow: antinode {paper:.2f} H with it, {closed:.2f} H without")
+    print(f"      share of time: relaxation_zone {share(run, 'relaxation_zone'):.4f}, absorption {share(run, 'absorption'):.4f}, wall_overflow {share(over, 'wall_overflow'):.4f}")
+
+
+def viscosity():
+    """A column of 0.2 m^2/s (a thick oil) collapses more slowly than water; water's own viscosity does nothing that a particle sees."""
+    def front(name, nu, wish):
+        run = Run(name, f"""
+title = "column"
+[time]
+end = 0.35
+window = 0.35
+[cmps]
+drive = "none"
+tank = [0.0, 1.2, 0.0, 0.5]
+water = [[[0.0, 0.0], [0.2, 0.0], [0.2, 0.3], [0.0, 0.3]]]
+particle_spacing = 0.0125
+viscosity = {nu}
+[effects]
+viscosity = "{wish}"
+""")
+        expect(run.status == 0, f"{name}: exit {run.status} {run.messages.strip()}")
+        return np.quantile(run.fluid()[1][-1, :, 0], 0.98), run  # the very first particles are drops of chance
+
+    thick, run = front("thick", 2e-2, "auto")
+    without, _ = front("thick without", 2e-2, "off")
+    expect(without - 0.2 > 1.3 * (thick - 0.2), f"viscosity: tongue at {thick:.3f} m, without it at {without:.3f} m: more than 30 % too far from its start at 0.2 m")
+    auto, plain = front("water auto", 1e-6, "auto")
+    on, full = front("water on", 1e-6, "on")
+    expect(abs(auto - on) < 0.0125, f"viscosity: with water's own, tongue at {auto:.3f} m (auto: off) and {on:.3f} m (on): the same within a spacing")
+    print(f"      share of time: viscosity {share(full, 'viscosity'):.3f} (on), {share(plain, 'viscosity'):.3f} (auto)")
+
+
+def turbulence_and_basin():
+    """Mild waves at a high structure: no breaking, nothing over the crest; both effects off by themselves, and the same when on."""
+    waves = os.path.join(FOLDER, "mild")
+    write_waves(waves, HEIGHT, PERIOD, DEPTH, 24, 30, 9, window=1.0)
+    structure = "structure = [[[28.0, -0.4], [28.0, 0.35], [28.2, 0.35], [28.2, -0.4]]]"
+    scene = flume(9.0, 29.0, structure, "front = 27.5", over_depth=12)
+    auto = Run("mild_auto", scene, waves=waves)
+    basin = Run("mild_basin", scene, waves=waves, sets=['effects.overtopping_basin="on"'])
+    mixed = Run("mild_turbulence", scene, waves=waves, sets=['effects.turbulence="on"'])
+    same = all(np.array_equal(a, b) for a, b in zip(auto.gauge("front"), basin.gauge("front")))
+    expect(same, "overtopping_basin: a wall that nothing passes: the same bits with auto (on, the crest can be reached) as with on" if same else "overtopping_basin: auto and on differ")
+    by_chance = chance("mild_other", scene, waves, auto, "front", 6.0, 9.0)
+    difference = rms_difference(auto, mixed, "front", 6.0, 9.0) / HEIGHT
+    expect(difference < 2 * by_chance, f"turbulence: waves that do not break: auto (off) and on differ by {difference:.3f} H rms, by chance {by_chance:.3f} (bound: twice that)")
+    print(f"      share of time: overtopping_basin {share(basin, 'overtopping_basin'):.4f}, turbulence {share(mixed, 'turbulence'):.3f}")
+
+
+def overtopping():
+    """High waves over a low crest, basin behind: without the effect what went over is simulated on, and shoots into the end wall."""
+    waves = os.path.join(FOLDER, "high")
+    write_waves(waves, 0.14, PERIOD, DEPTH, 24, 30, 10, window=1.0)
+    structure = "structure = [[[27.5, -0.4], [27.5, 0.04], [27.7, 0.04], [27.7, -0.4]]]"
+    gauges = 'over = {x = 27.7, kind = "overtopping"}'
+    scene = flume(10.0, 29.0, structure, gauges)
+    on = Run("over_on", scene, waves=waves)
+    t, volume = on.gauge("over", "overtopped_volume")
+    ledger = on.figure("overtopped_volume")
+    expect(ledger > 0.005 and abs(volume[-1] - ledger) < 1e-6, f"overtopping_basin: gauge {volume[-1]:.4f} m2, ledger {ledger:.4f} m2 over the crest (same)")
+    expect(on.invariant("particle_ledger") == 0, "overtopping_basin: particle ledger exact")
+    lost = on.figure("particles", "overtopped") * (DEPTH / 8) ** 2
+    expect(abs(lost - ledger) < 1e-9, f"overtopping_basin: {on.figure('particles', 'overtopped'):.0f} particles taken out, l0^2 each")
+    off = Run("over_off", scene, waves=waves, sets=['effects.overtopping_basin="off"'])
+    _, kept = off.gauge("over", "overtopped_volume")
+    expect(off.figure("particles", "overtopped") == 0 and kept.max() > 0, f"overtopping_basin: without it the water stays in the run, {kept[-1]:.4f} m2 behind the crest at the end")
+    print(f"      particles at the end: {on.figure('particles', 'fluid'):.0f} with it, {off.figure('particles', 'fluid'):.0f} without")
+
+
+for case in (start_at_arrival, start_in_waves, open_boundaries, viscosity, turbulence_and_basin, overtopping):
+    if len(sys.argv) < 2 or sys.argv[1] in case.__name__:
+        case()
+finish()
