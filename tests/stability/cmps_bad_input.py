@@ -36,7 +36,7 @@ def folder_of_waves(name, *arguments, **keys):
     return path
 
 
-waves = folder_of_waves("waves", 0.06, 1.65, 0.4, 24, 30, 4.0, window=1.0)
+waves = folder_of_waves("waves", 0.06, 1.65, 0.4, 24, 34, 4.0, window=1.0)
 elsewhere = folder_of_waves("elsewhere", 0.06, 1.65, 0.4, 2, 8, 4.0, window=1.0)
 short = folder_of_waves("short", 0.06, 1.65, 0.4, 24, 30, 2.0, window=1.0)
 deeper = folder_of_waves("deeper", 0.06, 1.65, 0.5, 24, 30, 4.0, window=1.0)
