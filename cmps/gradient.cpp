@@ -51,6 +51,38 @@ void GradientTerm::find_local_minima(const Particles& particles, const Neighbour
     });
 }
 
+/// p_i C_i of every carrier; walls, whose neighbourhood is one-sided, take the identity.
+void GradientTerm::correct_pressures(const Particles& particles, const Interactions& interactions) {
+    const std::size_t first = particles.first_wall(), rows = particles.size() - first;
+    for (auto* array : {&pressure_xx_, &pressure_xz_, &pressure_zz_}) array->resize(rows);
+    common::parallel_for(rows, 2000, [&](std::size_t row) {
+        const Correction c =
+            row < particles.walls ? Correction{1, 0, 1} : correction_of(interactions, row, lattice_density_);
+        const double p = particles.pressure[first + row];
+        pressure_xx_[row] = p * c.xx, pressure_xz_[row] = p * c.xz, pressure_zz_[row] = p * c.zz;
+    });
+}
+
+void GradientTerm::evaluate_corrected_pairs(const Particles& particles, const NeighbourLists& lists,
+                                            const Interactions& interactions, std::vector<double>& gradient_x,
+                                            std::vector<double>& gradient_z) const {
+    const std::size_t first = particles.first_wall(), walls = particles.walls;
+    const double scale = 2.0 / lattice_density_;
+    common::parallel_for(particles.fluid, 2000, [&](std::size_t f) {
+        const std::size_t row = walls + f;
+        const double xx = pressure_xx_[row], xz = pressure_xz_[row], zz = pressure_zz_[row];
+        double x = 0, z = 0;
+        for (std::size_t k = lists.carriers[row]; k < lists.start[row + 1]; ++k) {
+            const std::size_t other = static_cast<std::size_t>(lists.neighbour[k]) - first;
+            const double g = interactions.weight_over_r2[k];
+            const double dx = g * interactions.dx[k], dz = g * interactions.dz[k];
+            x += (xx + pressure_xx_[other]) * dx + (xz + pressure_xz_[other]) * dz;
+            z += (xz + pressure_xz_[other]) * dx + (zz + pressure_zz_[other]) * dz;
+        }
+        gradient_x[f] = scale * x, gradient_z[f] = scale * z;
+    });
+}
+
 void GradientTerm::evaluate(const Particles& particles, const NeighbourLists& lists,
                             const Interactions& interactions, std::vector<double>& gradient_x,
                             std::vector<double>& gradient_z) {
@@ -85,6 +117,10 @@ void GradientTerm::evaluate(const Particles& particles, const NeighbourLists& li
             run([p, lowest](std::size_t i, std::size_t j) { return p[i] + p[j] - 2 * lowest; }, store);
             break;
         }
+        case Gradient::antisymmetric_corrected:
+            correct_pressures(particles, interactions);
+            evaluate_corrected_pairs(particles, lists, interactions, gradient_x, gradient_z);
+            break;
         case Gradient::corrected:
             run([p](std::size_t i, std::size_t j) { return p[j] - p[i]; },
                 [&](std::size_t f, std::size_t row, double x, double z) {

@@ -5,8 +5,11 @@
 ///     standard        (1)   D/n0 sum (p_j - p^_i) r_ij w / r^2
 ///     modified        (4)   D/n0 sum (p_i + p_j - 2 p^_i) r_ij w / r^2
 ///     antisymmetric   (5)   D/n0 sum (p_i + p_j - p^_i - p^_j) r_ij w / r^2        conserves momentum
-///     exactly corrected       GC    C_i D/n0 sum (p_j - p_i) r_ij w / r^2                  exact for a
-///     linear pressure
+///     corrected       GC    C_i D/n0 sum (p_j - p_i) r_ij w / r^2                  exact for a linear p
+///     antisymmetric corrected    D/n0 sum (p_i C_i + p_j C_j) r_ij w / r^2         conserves momentum
+///
+/// C_i = (D/n0 sum r_ij r_ij^T w / r^2)^-1, the identity at walls in the last one (the form of Vila 1999). It
+/// keeps (5)'s pairs and carries waves: see the table in cmps/README.md.
 ///
 /// (5) with local minima gives zero for a linear pressure on a regular lattice; with the lowest pressure of
 /// the connected water (zero at a free surface) it is p_i + p_j: it conserves momentum and is consistent on a
@@ -19,7 +22,14 @@
 
 namespace cmps {
 
-enum class Gradient { standard, modified, antisymmetric_local, antisymmetric_global, corrected };
+enum class Gradient {
+    standard,
+    modified,
+    antisymmetric_local,
+    antisymmetric_global,
+    antisymmetric_corrected,
+    corrected
+};
 
 /// D/n0 times the moment of a particle's neighbourhood, inverted; the identity where it is too lopsided.
 struct Correction {
@@ -38,9 +48,14 @@ class GradientTerm {
  private:
     void find_local_minima(const Particles& particles, const NeighbourLists& lists,
                            const Interactions& interactions);
+    void correct_pressures(const Particles& particles, const Interactions& interactions);
+    void evaluate_corrected_pairs(const Particles& particles, const NeighbourLists& lists,
+                                  const Interactions& interactions, std::vector<double>& gradient_x,
+                                  std::vector<double>& gradient_z) const;
     Gradient kind_;
     double lattice_density_;
     std::vector<double> minimum_;
+    std::vector<double> pressure_xx_, pressure_xz_, pressure_zz_;  // p C, per carrier
 };
 
 }  // namespace cmps

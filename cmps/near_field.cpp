@@ -44,7 +44,7 @@ double NearField::largest_step() const {
     double step = 0.4 * l0 / std::sqrt(g * std::max(settings.depth, l0));
     if (largest_speed_ > 0) step = std::min(step, settings.courant * l0 / largest_speed_);
     if (largest_acceleration_ > 0) step = std::min(step, 0.25 * std::sqrt(l0 / largest_acceleration_));
-    return step;
+    return settings.time_step_factor * step;
 }
 
 void NearField::advance(double time, double step) {
@@ -74,8 +74,9 @@ void NearField::advance(double time, double step) {
     run_effects(&Effect::accelerate, time);
     solve_pressure(step);
     apply_gradient(step);
+    filter_velocity(step);
     if (is_midpoint) drift(0.5 * step);
-    shift();
+    shift(true);
     run_effects(&Effect::end_step, time + step);
     check(time, step);
     ++counts.steps;
@@ -207,7 +208,7 @@ void NearField::push_apart(double step) {
                 const double nx = particles.normal_x[j], nz = particles.normal_z[j];
                 const double gap = -(dx * nx + dz * nz) - 0.5 * l0;  // from the face
                 const double sideways = std::abs(-dx * nz + dz * nx);
-                if (gap < 0.1 * l0 && sideways < 0.45 * l0) {
+                if (gap < 0.1 * l0 && sideways < 0.55 * l0) {
                     const double speed = (ui + du - particles.u[j]) * nx + (wi + dw - particles.w[j]) * nz;
                     const double wanted = (0.1 * l0 - gap) / push_step;  // back out within a reference step
                     if (speed < wanted) du += (wanted - speed) * nx, dw += (wanted - speed) * nz;
@@ -220,9 +221,21 @@ void NearField::push_apart(double step) {
         particles.u[first + f] += change_u_[f], particles.w[first + f] += change_w_[f];
 }
 
+void NearField::filter_velocity(double step) {
+    if (settings.velocity_filter == 0 && settings.shifting == 0) return;
+    const common::PhaseTimer timer(seconds.motion);
+    const NeighbourLists& lists = search.lists();
+    filter_.find_gradients(particles, lists, interactions, lattice.number_density);
+    if (settings.velocity_filter == 0) return;
+    const double g = std::hypot(settings.gravity_x, settings.gravity_z);
+    const double share = settings.velocity_filter * step * std::sqrt(g * settings.depth) / settings.spacing;
+    filter_.apply(particles, lists, interactions, lattice.number_density, std::min(share, 0.25));
+}
+
 /// Particle shifting: dr = -0.3 (l0^2/n0) sum w r_ij / r^2, at most 0.05 l0; none at the surface, along it
-/// next to it.
-void NearField::shift() {
+/// next to it. A shifted particle takes the velocity of its new place, u += grad u . dr: left out, a wave
+/// loses half as much height again. `carries_velocity`: gradients are current.
+void NearField::shift(bool carries_velocity) {
     if (settings.shifting == 0) return;
     const common::PhaseTimer timer(seconds.motion);
     const std::size_t first = particles.first_fluid(), walls = particles.walls;
@@ -241,8 +254,12 @@ void NearField::shift() {
             }
         }
         const double size = std::sqrt(sx * sx + sz * sz), scale = size > limit ? limit / size : 1.0;
-        particles.x[first + f] += scale * sx;
-        particles.z[first + f] += scale * sz;
+        sx *= scale, sz *= scale;
+        particles.x[first + f] += sx;
+        particles.z[first + f] += sz;
+        if (!carries_velocity) continue;
+        particles.u[first + f] += filter_.du_dx[f] * sx + filter_.du_dz[f] * sz;
+        particles.w[first + f] += filter_.dw_dx[f] * sx + filter_.dw_dz[f] * sz;
     }
 }
 
@@ -250,7 +267,7 @@ void NearField::settle(int sweeps, double surface_level) {
     for (int sweep = 0; sweep < sweeps; ++sweep) {
         old_u_ = particles.u, old_w_ = particles.w;
         update_geometry();
-        shift();
+        shift(false);
     }
     for (std::size_t i = particles.first_wall(); i < particles.size(); ++i)
         particles.pressure[i] =

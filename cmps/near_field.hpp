@@ -14,6 +14,7 @@
 #include "cmps/pressure_equation.hpp"
 #include "cmps/pressure_solver.hpp"
 #include "cmps/settings.hpp"
+#include "cmps/velocity_filter.hpp"
 
 namespace cmps {
 
@@ -77,12 +78,14 @@ class NearField {
     void solve_pressure(double step);
     void apply_gradient(double step);
     void push_apart(double step);
-    void shift();
+    void filter_velocity(double step);
+    void shift(bool carries_velocity);
     void check(double time, double step) const;
 
     std::variant<RationalKernel, WendlandKernel> kernel_;
     PressureSolver solver_;
     GradientTerm gradient_;
+    VelocityFilter filter_;
     std::vector<double> gradient_x_, gradient_z_, unknown_pressure_, unknown_x_, unknown_z_, old_u_, old_w_,
         change_u_, change_w_;
     double largest_speed_ = 0, largest_acceleration_ = 0;

@@ -166,11 +166,13 @@ void read_numerics(const common::SceneFile& file, const Section& section, Scene&
         "order of drift and pressure: midpoint (second order) or predicted (the paper's)",
         {{"midpoint", TimeStepping::midpoint}, {"predicted", TimeStepping::predicted}}, "midpoint");
     settings.gradient = chosen<Gradient>(
-        section, "gradient", "pressure gradient: eq. (1), (4), (5) with local or global minima, or corrected",
+        section, "gradient",
+        "pressure gradient: eq. (1), (4), (5) with local or global minima or corrected, or corrected",
         {{"standard", Gradient::standard},
          {"modified", Gradient::modified},
          {"antisymmetric_local", Gradient::antisymmetric_local},
          {"antisymmetric", Gradient::antisymmetric_global},
+         {"antisymmetric_corrected", Gradient::antisymmetric_corrected},
          {"corrected", Gradient::corrected}},
         "corrected");
     settings.pressure.source = chosen<Source>(section, "source", "source of the pressure equation",
@@ -197,10 +199,16 @@ void read_numerics(const common::SceneFile& file, const Section& section, Scene&
                         Range::not_negative(), 10000));
     settings.shifting = section.number("shifting", "-", "coefficient of particle shifting, 0: none",
                                        Range::between(0, 1), 0.3);
+    settings.velocity_filter =
+        section.number("velocity_filter", "-", "strength of the filter of particle-scale velocities, 0: none",
+                       Range::between(0, 0.5), 0.02);
     settings.stabilisation =
         section.number("stabilisation", "-", "pairs nearer than this many l0 are pushed apart, 0: none",
                        Range::between(0, 0.98), 0.9);
     settings.courant = section.number("courant", "-", "largest u dt / l0", Range::between(0.001, 0.5), 0.3);
+    settings.time_step_factor =
+        section.number("time_step_factor", "-", "on the largest step by speed, celerity and acceleration",
+                       Range::between(0.01, 10), 1.0);
     const auto gravity = section.numbers("gravity", "m/s2", "x and z component", 2, Range::any(),
                                          std::vector<double>{0.0, -9.81});
     settings.gravity_x = gravity[0], settings.gravity_z = gravity[1];

@@ -1,5 +1,6 @@
 """Dam breaks against published measurements.
 
+Martin & Moyce (1952), tables 2 and 6: front and height of a column a x 2a, a = 2.25 in.
 Koshizuka & Oka (1996; experiment of Koshizuka et al. 1995): front of a column L x 2L in a tank of 4L.
 Lobovsky et al. (2014): levels and impact pressure, column 0.6 x 0.3 m in a tank of 1.61 m.
 """
@@ -39,6 +40,30 @@ def koshizuka():
     expect(rms < 0.30, f"Koshizuka: front leads by {np.mean(error):+.3f} x/L, rms {rms:.3f} (bound 0.30)")
 
 
+def martin_moyce():
+    width, gravity, spacing = 0.05715, 9.81, 0.05715 / 20
+    gauges = f"back = {{x = {0.5 * spacing}, interval = 0.005}}"
+    run = Run("martin_moyce", scene(0.3, [0, 8 * width, 0, 3 * width], [[[0, 0], [width, 0], [width, 2 * width], [0, 2 * width]]], spacing, gauges))
+    expect(run.status == 0, f"Martin & Moyce: exit {run.status} {run.messages.strip()}")
+    t, position, _ = run.fluid()
+    front = (position[:, :, 0].max(axis=1) + 0.5 * spacing) / width
+    # table 2: t sqrt(2g/a), x/a
+    measured = np.array([[0.41, 1.11], [0.84, 1.22], [1.19, 1.44], [1.43, 1.67], [1.63, 1.89], [1.83, 2.11], [1.98, 2.33], [2.20, 2.56], [2.32, 2.78],
+                         [2.51, 3.00], [2.65, 3.22], [2.83, 3.44], [2.98, 3.67], [3.11, 3.89], [3.33, 4.11]])
+    scaled = t * np.sqrt(2 * gravity / width)
+    error = np.interp(measured[:, 0], scaled, front) - measured[:, 1]
+    slope = np.polyfit(measured[4:, 0], np.interp(measured[4:, 0], scaled, front), 1)[0] / np.polyfit(measured[4:, 0], measured[4:, 1], 1)[0]
+    # the gate and the wetting of the floor cost the experiment 5 to 20 % (every inviscid code leads); a code that lags is wrong
+    expect(0 < np.mean(error / measured[:, 1]) < 0.2, f"Martin & Moyce: front leads by {100 * np.mean(error / measured[:, 1]):.1f} % of x, rms {np.sqrt(np.mean(error**2)):.3f} a (bound 0 to 20 %)")
+    expect(abs(slope - 1) < 0.15, f"Martin & Moyce: front speed beyond 1.9 a {slope:.3f} of the measured (bound 15 %: tables to 0.01 in steps of 0.2)")
+    tl, level = run.gauge("back")
+    # table 6: t sqrt(g/a), height/2a
+    height = np.array([[0.56, 0.94], [0.77, 0.89], [0.93, 0.83], [1.08, 0.78], [1.28, 0.72], [1.46, 0.67], [1.66, 0.61], [1.84, 0.56], [2.00, 0.50],
+                       [2.21, 0.44], [2.45, 0.39], [2.70, 0.33], [3.06, 0.28], [3.44, 0.22]])
+    rms = np.sqrt(np.mean((np.interp(height[:, 0], tl * np.sqrt(gravity / width), level / (2 * width)) - height[:, 1]) ** 2))
+    expect(rms < 0.04, f"Martin & Moyce: height of the column, rms {rms:.3f} of its first height (bound 0.04: a particle and a half, and tables in steps of 0.055)")
+
+
 def lobovsky():
     height, gravity = 0.3, 9.81
     gauges = """
@@ -48,15 +73,20 @@ H2 = {x = 0.865, interval = 0.005}
 H4 = {x = 1.3625, interval = 0.005}
 """
     scale = np.sqrt(gravity / height)
-    peaks = []
-    for spacing in (0.0099, 0.0101, 0.01):  # the peak is one particle's arrival: the median of three lattices
-        run = Run(f"lobovsky{spacing}", scene(1.0, [0, 1.61, 0, 0.6], [[[0, 0], [0.6, 0], [0.6, 0.3], [0, 0.3]]], spacing, gauges))
+    peaks, means = [], []
+    for spacing in (0.0098, 0.0099, 0.0101, 0.0102, 0.01):  # single particles arrive: the median of five lattices
+        run = Run(f"lobovsky{spacing}", scene(1.0 if spacing == 0.01 else 0.72, [0, 1.61, 0, 0.6], [[[0, 0], [0.6, 0], [0.6, 0.3], [0, 0.3]]], spacing, gauges))
         expect(run.status == 0, f"Lobovsky, l0 = {spacing}: exit {run.status} {run.messages.strip()}")
         t, pressure = run.gauge("low", "pressure")
         t, pressure = t * scale, pressure / (1000 * gravity * height)
         peaks.append(pressure[t < 4].max())
+        means.append(np.convolve(pressure[t < 4], np.ones(3) / 3, "valid").max())
+    # A particle takes l0/u = 3 ms to arrive: what is shorter the particles do not resolve. The experiment's record has a
+    # largest mean over 3 ms of 2.79 rho g H (its largest single value is 3.04).
+    mean = np.median(means)
+    expect(abs(mean / 2.79 - 1) < 0.2, f"Lobovsky: first peak at z = 3 mm over 3 ms {mean:.2f} rho g H ({', '.join(f'{p:.2f}' for p in means)}), measured 2.79 (bound 20 %)")
     peak = np.median(peaks)
-    expect(abs(peak / 3.04 - 1) < 0.2, f"Lobovsky: first peak at z = 3 mm {peak:.2f} rho g H ({', '.join(f'{p:.2f}' for p in peaks)}), measured 3.04 (bound 20 %)")
+    expect(1.5 < peak < 6.1, f"Lobovsky: largest single value {peak:.2f} rho g H ({', '.join(f'{p:.2f}' for p in peaks)}), measured 3.04 (bound a factor of 2: it is one particle's)")
     late = (t > 3.5) & (t < 5.5)
     smooth = np.convolve(pressure, np.ones(53) / 53, "same")
     noise = np.std((pressure - smooth)[late])
@@ -73,6 +103,7 @@ H4 = {x = 1.3625, interval = 0.005}
     expect(rms < 0.04, f"Lobovsky: level in the reservoir, rms {rms:.3f} H (bound 0.04: a particle of l0 = H/30 and the reading error)")
 
 
+martin_moyce()
 koshizuka()
 lobovsky()
 finish()

@@ -7,8 +7,12 @@ Cases with a true answer:
     still    still water: floor pressure against rho g h, noise
     dam      Lobovsky et al. (2014): level in the reservoir and impact pressure
     solitary solitary wave against a wall: run-up against Su & Mirie (1980)
+    wave     standing wave, ka = 0.16, kh = 1.6, six periods: height lost in a period (exact: none)
 The ladder (particles over the depth) for each, and one factor at a time around the standard set: gradient, source, Laplacian,
-surface condition, kernel radius, time stepping, shifting, solver tolerance, Courant number.
+surface condition, kernel, time stepping, shifting, velocity filter, density term, solver tolerance, time step.
+
+Runs that are there already are read, not run again. --part K/N runs every N-th of them and writes no table, so that parts can run
+side by side or one after the other; the call without it then writes table and picture.
 """
 import argparse
 import csv
@@ -69,6 +73,27 @@ particle_spacing = {spacing}
 """
 
 
+WAVE = """
+title = "standing wave"
+[time]
+end = {end}
+window = 1.0
+[gauges]
+wall = {{x = 0.01, interval = 0.01}}
+[cmps]
+drive = "none"
+tank = [0, 0.6, 0, 0.5]
+water = [[[0, 0], [0.6, 0], {surface}]]
+particle_spacing = {spacing}
+"""
+WAVE_PERIOD = 2 * np.pi / np.sqrt(9.81 * np.pi / 0.6 * np.tanh(np.pi / 0.6 * 0.3))
+
+
+def wave_surface(depth=0.3, length=0.6, amplitude=0.03, points=40):
+    x = np.linspace(length, 0, points)
+    return ", ".join(f"[{a:.5f}, {depth + amplitude * np.cos(np.pi * a / length):.5f}]" for a in x)
+
+
 def write_piston(path, depth=0.2, height=0.04, end=7.0, gravity=9.81):
     """Goring (1978): dX/dt = c eta / (d + eta) with eta at the plate."""
     k, c = np.sqrt(3 * height / (4 * depth**3)), np.sqrt(gravity * (depth + height))
@@ -118,23 +143,43 @@ def solitary_error(folder, _):
     return float(abs((wall.max() - wall[t < 0.3].mean()) / 0.2 / (2 * epsilon + epsilon**2 / 2 + 0.75 * epsilon**3) - 1))
 
 
+def wave_error(folder, _):
+    """Loss in a period: slope of the logarithm of the first harmonic's amplitude in windows of one period."""
+    t, level = series(folder, "wall", "surface_elevation")
+    logarithm, centre = [], []
+    for begin in np.arange(0.5, t[-1] / WAVE_PERIOD - 1, 0.25):
+        use = (t >= begin * WAVE_PERIOD) & (t < (begin + 1) * WAVE_PERIOD)
+        phase = 2 * np.pi * t[use] / WAVE_PERIOD
+        basis = np.c_[np.cos(phase), np.sin(phase), np.cos(2 * phase), np.sin(2 * phase), np.ones(use.sum())]
+        fit = np.linalg.lstsq(basis, level[use], rcond=None)[0]
+        logarithm.append(np.log(np.hypot(fit[0], fit[1])))
+        centre.append(begin)
+    if len(centre) < 2:
+        return float("nan")  # the short form
+    return float(abs(1 - np.exp(np.polyfit(centre, logarithm, 1)[0])))
+
+
 CASES = {
     "still": (STILL, 0.3, 4.0, still_error, "rms of p/(rho g h) - 1"),
     "dam": (DAM, 0.3, 0.9, dam_error, "rms of levels over H, against the experiment"),
     "solitary": (SOLITARY, 0.2, 4.5, solitary_error, "run-up at the wall, relative"),
+    "wave": (WAVE, 0.3, 6.5 * WAVE_PERIOD, wave_error, "height of a standing wave lost in a period"),
 }
 LADDER = [8, 12, 16, 24, 30, 40]
 FACTORS = [
-    ("gradient", ["gradient=standard", "gradient=modified", "gradient=antisymmetric", "gradient=antisymmetric_local"]),
+    ("gradient", ["gradient=standard", "gradient=modified", "gradient=antisymmetric", "gradient=antisymmetric_local", "gradient=antisymmetric_corrected"]),
     ("source", ["source=density", "source=corrected", "source=error_compensating"]),
     ("laplacian", ["laplacian=higher_order"]),
     ("surface", ["surface=detected"]),
     ("kernel", ["kernel_radius=2.1", "kernel_radius=3.1", "kernel=rational"]),
     ("time_stepping", ["time_stepping=predicted"]),
     ("shifting", ["shifting=0", "shifting=0.1"]),
+    ("velocity_filter", ["velocity_filter=0", "velocity_filter=0.3"]),
+    ("density_weight", ["density_weight=0", "density_weight=0.005", "density_weight=0.1"]),
     ("stabilisation", ["stabilisation=0", "stabilisation=0.8"]),
     ("tolerance", ["tolerance=1e-2", "tolerance=1e-5"]),
     ("courant", ["courant=0.1", "courant=0.4"]),
+    ("time_step", ["time_step_factor=0.5", "time_step_factor=1.5", "time_step_factor=2"]),
 ]
 
 
@@ -147,7 +192,7 @@ def measure(arguments, case, particles_over_depth, factor, setting):
     scene = os.path.join(arguments.out, name + ".toml")
     piston = os.path.abspath(os.path.join(arguments.out, "piston.csv"))
     with open(scene, "w") as file:
-        file.write(template.format(spacing=spacing, end=end, piston=piston))
+        file.write(template.format(spacing=spacing, end=end, piston=piston, surface=wave_surface()))
     walls, record = [], {}
     for repeat in range(arguments.repeats):
         folder = os.path.join(arguments.out, f"{name}_{repeat}")
@@ -202,19 +247,25 @@ def main():
     parser.add_argument("--out", required=True)
     parser.add_argument("--smoke", action="store_true", help="coarsest levels and short runs")
     parser.add_argument("--repeats", type=int, default=1)
+    parser.add_argument("--part", help="K/N: every N-th run from the K-th (from 0), no table")
     parser.add_argument("--scene", help="accepted for the common command line; cost_scene.py runs a scene's ladder")
     arguments = parser.parse_args()
     os.makedirs(arguments.out, exist_ok=True)
     write_piston(os.path.join(arguments.out, "piston.csv"))
-    rows = []
+    plan = []
     for case in CASES:
-        for level in LADDER[:2] if arguments.smoke else LADDER:
-            rows.append(measure(arguments, case, level, "resolution", "-"))
-            print(",".join(map(str, rows[-1])), flush=True)
+        plan += [(case, level, "resolution", "-") for level in (LADDER[:2] if arguments.smoke else LADDER)]
         for factor, settings in FACTORS[:1] if arguments.smoke else FACTORS:
-            for setting in settings:
-                rows.append(measure(arguments, case, 8 if arguments.smoke else 20, factor, setting))
-                print(",".join(map(str, rows[-1])), flush=True)
+            plan += [(case, 8 if arguments.smoke else 20, factor, setting) for setting in settings]
+    if arguments.part:
+        part, parts = map(int, arguments.part.split("/"))
+        plan = plan[part::parts]
+    rows = []
+    for entry in plan:
+        rows.append(measure(arguments, *entry))
+        print(",".join(map(str, rows[-1])), flush=True)
+    if arguments.part:
+        return
     with open(os.path.join(arguments.out, "cmps_cost.csv"), "w", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(HEAD)

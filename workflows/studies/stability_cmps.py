@@ -1,0 +1,99 @@
+#!/usr/bin/python3
+"""Stability map of cmps: time step over resolution, for a dam break with impact and return.
+
+    make -C workflows stability        (SMOKE=1: the corners only)
+
+The column of Lobovsky et al. (2014), 0.6 x 0.3 m in a tank of 1.61 m, 1.2 s: front, impact at the far wall, return. The step is
+a multiple of the default one (cmps.time_step_factor). Each run is judged: stable (done, no particle in the solid, no energy
+gained, level in the reservoir within two spacings of the experiment), noticed (the run stopped itself with a message), refused
+(before anything ran) or unstable (neither). Writes stability_cmps.csv and stability_cmps.png.
+"""
+import argparse
+import csv
+import os
+import pathlib
+import subprocess
+import sys
+
+import numpy
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import run_folder  # noqa: E402
+
+HEIGHT = 0.3
+SCENE = """
+[time]
+end = 1.2
+window = 1.2
+[gauges]
+reservoir = {x = 0.3, interval = 0.01}
+[cmps]
+drive = "none"
+tank = [0, 1.61, 0, 0.6]
+water = [[[0, 0], [0.6, 0], [0.6, 0.3], [0, 0.3]]]
+particles_interval = 0.5
+"""
+# Lobovsky et al. (2014), gauge H1: t sqrt(g/H), level over H
+MEASURED = numpy.array([[1, 0.93], [2, 0.785], [3, 0.635], [4, 0.50], [5, 0.405]])
+VERDICTS = {"stable": "#3a7d44", "noticed": "#e0b030", "refused": "#b8b4ac", "unstable": "#c03020"}
+
+
+def judge(options, scene, folder, over_height, factor):
+    """Verdict, largest energy gained over rho g h / 2, rms error of the level over H."""
+    spacing = HEIGHT / over_height
+    nothing = float("nan")
+    command = [str(options.bin / "cmps"), "run", str(scene), "--out", str(folder), "--quiet", "--set", f"cmps.particle_spacing={spacing}", "--set", f"cmps.time_step_factor={factor}"]
+    ended = subprocess.run(command, capture_output=True, text=True)
+    if ended.returncode == 2:
+        return "refused", nothing, nothing
+    if ended.returncode == 1:
+        return "noticed", nothing, nothing
+    record = run_folder.read_run(folder)
+    gained = record["invariants"]["largest_energy_gain"]["value"]
+    t, level = run_folder.gauge(folder, "reservoir")
+    wrong = numpy.interp(MEASURED[:, 0], t * numpy.sqrt(9.81 / HEIGHT), level / HEIGHT) - MEASURED[:, 1]
+    rms = float(numpy.sqrt(numpy.mean(wrong**2)))
+    holds = record["invariants"]["particles_in_solid"]["holds"] and gained < 0.02 and rms * over_height < 2.0
+    return ("stable" if holds else "unstable"), gained, rms
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--bin", required=True, type=pathlib.Path)
+    parser.add_argument("--out", required=True, type=pathlib.Path)
+    parser.add_argument("--scene", type=pathlib.Path, help="not used")
+    parser.add_argument("--smoke", action="store_true")
+    options = parser.parse_args()
+    os.environ.setdefault("OMP_WAIT_POLICY", "passive")
+    out = options.out / "stability_cmps"
+    out.mkdir(parents=True, exist_ok=True)
+    scene = out / "dam_break.toml"
+    scene.write_text(SCENE)
+    resolutions = (6, 12) if options.smoke else (4, 6, 10, 15, 20, 30)
+    factors = (1.0, 8.0) if options.smoke else (0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0)
+    rows = []
+    for over_height in resolutions:
+        for factor in factors:
+            verdict, gained, rms = judge(options, scene, out / "run", over_height, factor)
+            rows.append({"particles_over_height": over_height, "step_over_default": factor, "verdict": verdict, "energy_gained": gained, "level_rms_over_H": rms})
+            print(f"H/l0 {over_height:3d}  step x {factor:.2f}  {verdict:9s} energy gained {gained:.3f}  level rms {rms:.3f} H", flush=True)
+    with open(options.out / "stability_cmps.csv", "w", newline="") as file:
+        writer = csv.DictWriter(file, list(rows[0]))
+        writer.writeheader()
+        writer.writerows(rows)
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as pyplot
+    figure, axis = pyplot.subplots(figsize=(5.5, 4))
+    for verdict, colour in VERDICTS.items():
+        shown = [row for row in rows if row["verdict"] == verdict]
+        axis.loglog([row["particles_over_height"] for row in shown], [row["step_over_default"] for row in shown], "s", color=colour, markersize=12, label=verdict)
+    axis.set(xlabel="particles over the column's height", ylabel="time step over the default one", title="cmps: dam break with impact")
+    axis.legend(fontsize=7)
+    figure.tight_layout()
+    figure.savefig(options.out / "stability_cmps.png", dpi=130)
+    print(options.out / "stability_cmps.png")
+
+
+if __name__ == "__main__":
+    main()
