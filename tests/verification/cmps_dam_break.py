@@ -36,8 +36,9 @@ def koshizuka():
     measured = np.array([[0.777, 1.247], [1.157, 1.507], [1.530, 1.897], [1.934, 2.246], [2.318, 2.607], [2.701, 3.000]])
     error = np.interp(measured[:, 0], t * np.sqrt(2 * gravity / column), front) - measured[:, 1]
     rms = np.sqrt(np.mean(error**2))
-    # inviscid codes lead by 5 to 20 % (gate, wetting); the peer's rms at L/20 is 0.30
-    expect(rms < 0.30, f"Koshizuka: front leads by {np.mean(error):+.3f} x/L, rms {rms:.3f} (bound 0.30)")
+    # inviscid codes lead by 5 to 20 % (gate, wetting); a standard MPS code leads by as much, rms 0.30 at L/20
+    lead = np.mean(error / measured[:, 1])
+    expect(0 < lead < 0.2, f"Koshizuka: front leads by {100 * lead:.1f} % of x, rms {rms:.3f} L (bound 0 to 20 %)")
 
 
 def martin_moyce():
