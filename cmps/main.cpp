@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "cmps/effect_rules.hpp"
+#include "cmps/expected_error.hpp"
 #include "cmps/forecast.hpp"
 #include "cmps/scene.hpp"
 #include "cmps/scene_geometry.hpp"
@@ -40,12 +41,6 @@ double start_time(const cmps::Scene& scene, cmps::WaveField* waves) {
     // Half a second ahead: what comes before the threshold is passed moves water too.
     constexpr double ahead = 0.5;  // s
     return std::max(0.0, std::floor((arrival - ahead) / grain) * grain);
-}
-
-/// What the levels cost in accuracy: standing wave of half a tank, five periods (tests/verification/cmps).
-std::string expected_error(double particles_over_depth) {
-    return fmt::format("wave period {:.1f} %, wave height {:.0f} % lost per wave length",
-                       100 / particles_over_depth / particles_over_depth, 40 / particles_over_depth);
 }
 
 /// The waves that drive a run, opened and judged.
@@ -97,7 +92,7 @@ int check(const common::StageCommand& command, const common::SceneFile& file, co
                         {"run time", fmt::format("about {} on this machine, one thread",
                                                  common::run_time_text(forecast.seconds))},
                         {"memory", fmt::format("about {:.0f} MB", forecast.memory / 1e6)},
-                        {"error", expected_error(scene.settings.depth / scene.settings.spacing)}});
+                        {"error", cmps::expected_error_text(scene.settings.depth / scene.settings.spacing)}});
     return common::exit_done;
 }
 

@@ -76,7 +76,7 @@ void NearField::advance(double time, double step) {
     apply_gradient(step);
     filter_velocity(step);
     if (is_midpoint) drift(0.5 * step);
-    shift(true);
+    shift(shifting_share(step), true);
     run_effects(&Effect::end_step, time + step);
     check(time, step);
     ++counts.steps;
@@ -221,6 +221,12 @@ void NearField::push_apart(double step) {
         particles.u[first + f] += change_u_[f], particles.w[first + f] += change_w_[f];
 }
 
+double NearField::shifting_share(double step) const {
+    const double g = std::hypot(settings.gravity_x, settings.gravity_z), l0 = settings.spacing;
+    const double celerity = std::sqrt(g * std::max(settings.depth, l0));
+    return std::min(1.0, step * std::max(celerity / 0.4, largest_speed_ / 0.2) / l0);
+}
+
 void NearField::filter_velocity(double step) {
     if (settings.velocity_filter == 0 && settings.shifting == 0) return;
     const common::PhaseTimer timer(seconds.motion);
@@ -235,12 +241,13 @@ void NearField::filter_velocity(double step) {
 /// Particle shifting: dr = -0.3 (l0^2/n0) sum w r_ij / r^2, at most 0.05 l0; none at the surface, along it
 /// next to it. A shifted particle takes the velocity of its new place, u += grad u . dr: left out, a wave
 /// loses half as much height again. `carries_velocity`: gradients are current.
-void NearField::shift(bool carries_velocity) {
+/// `share` of the coefficient: less on steps shorter than those of speed and celerity ask for.
+void NearField::shift(double share, bool carries_velocity) {
     if (settings.shifting == 0) return;
     const common::PhaseTimer timer(seconds.motion);
     const std::size_t first = particles.first_fluid(), walls = particles.walls;
-    const double l0 = settings.spacing, factor = settings.shifting * l0 * l0 / lattice.number_density;
-    const double limit = 0.05 * l0;
+    const double l0 = settings.spacing, factor = share * settings.shifting * l0 * l0 / lattice.number_density;
+    const double limit = share * 0.05 * l0;
     for (std::size_t f = 0; f < particles.fluid; ++f) {
         const std::size_t row = walls + f;
         if (place[row] >= Place::surface) continue;
@@ -267,7 +274,7 @@ void NearField::settle(int sweeps, double surface_level) {
     for (int sweep = 0; sweep < sweeps; ++sweep) {
         old_u_ = particles.u, old_w_ = particles.w;
         update_geometry();
-        shift(false);
+        shift(1.0, false);
     }
     for (std::size_t i = particles.first_wall(); i < particles.size(); ++i)
         particles.pressure[i] =

@@ -79,7 +79,8 @@ class NearField {
     void apply_gradient(double step);
     void push_apart(double step);
     void filter_velocity(double step);
-    void shift(bool carries_velocity);
+    double shifting_share(double step) const;
+    void shift(double share, bool carries_velocity);
     void check(double time, double step) const;
 
     std::variant<RationalKernel, WendlandKernel> kernel_;
