@@ -30,12 +30,12 @@ struct Settings {
     bool negative_pressure = false;  ///< false: p < 0 is cut (tension would open voids)
     double tolerance = 1e-3;         ///< of the pressure solve, relative to its right-hand side
     std::size_t most_iterations = 2000;
-    std::size_t multigrid_from = 1500;   ///< unknowns from which multigrid is faster than incomplete Cholesky
-    double shifting = 0.3;               ///< coefficient of particle shifting, 0: none
-    double velocity_filter = 0.02;       ///< strength of the filter of particle-scale velocities, 0: none
-    double stabilisation = 0.9;          ///< pairs nearer than this many l0 are pushed apart, 0: none
-    double courant = 0.3;                ///< u dt / l0
-    double time_step_factor = 1;         ///< on the largest step by speed, celerity and acceleration
+    std::size_t multigrid_from = 1500;  ///< unknowns from which multigrid is faster than incomplete Cholesky
+    double shifting = 0.3;              ///< coefficient of particle shifting, 0: none
+    double velocity_filter = 0.02;      ///< strength of the filter of particle-scale velocities, 0: none
+    double stabilisation = 0.9;         ///< pairs nearer than this many l0 are pushed apart, 0: none
+    double courant = 0.3;               ///< u dt / l0
+    double time_step_factor = 1;        ///< on the largest step by speed, celerity and acceleration
     double gravity_x = 0, gravity_z = -9.81;  ///< m/s2
     double depth = 0;  ///< largest depth of water, m: sets the wave speed in the time step
 };
