@@ -5,26 +5,85 @@
 
 namespace dem {
 
+namespace {
+
+constexpr double wave_speed =
+    0.1;  // m/s: above the near field's noise in still water, far below what moves a block
+
+}  // namespace
+
 FluidLoads::FluidLoads(const Blocks& blocks, FluidProperties properties,
                        std::variant<UniformWater, FlowGrid> water_motion)
-    : motion(std::move(water_motion)), properties_(std::move(properties)) {
+    : motion_(std::move(water_motion)), properties_(std::move(properties)) {
+    is_awake_.assign(blocks.size(), 1);
+    resting_.resize(blocks.size());
     loads_.assign(blocks.size(), {Vector::Zero(), Vector::Zero(), Rotation::Zero(), Vector::Zero(), 0, 0});
     applied_.assign(blocks.size(), Vector::Zero());
 }
 
 void FluidLoads::sample(Blocks& blocks, double t, double hold) {
-    constexpr double wave_speed =
-        0.1;  // m/s: above the near field's noise in still water, far below what moves a block
     // The middle of the time the sample is held: second order in the interval.
-    if (auto* grid = std::get_if<FlowGrid>(&motion)) grid->set_time(t + 0.5 * hold);
-    for (std::size_t i = 0; i < blocks.size(); ++i) {
-        if (blocks.is_fixed[i]) continue;
-        loads_[i] = std::visit(
-            [&](const auto& water) { return sample_fluid_load(blocks, i, water, properties_); }, motion);
-        if (waves_reach_blocks < 0 && loads_[i].water_speed > wave_speed) waves_reach_blocks = t;
-        const double ratio = mass_ratio(blocks.shape_of(i), loads_[i].wet, properties_);
-        if (ratio != blocks.mass_ratio[i]) work += blocks.set_mass_ratio(i, ratio);
+    if (auto* grid = std::get_if<FlowGrid>(&motion_)) grid->set_time(t + 0.5 * hold);
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+        if (!blocks.is_fixed[i] && !stays_as_sampled(blocks, i)) sample_block(blocks, i, t);
+}
+
+void FluidLoads::sample_block(Blocks& blocks, std::size_t i, double t) {
+    loads_[i] = std::visit(
+        [&](const auto& water) { return sample_fluid_load(blocks, i, water, properties_); }, motion_);
+    if (waves_reach_blocks < 0 && loads_[i].water_speed > wave_speed) waves_reach_blocks = t;
+    const double ratio = mass_ratio(blocks.shape_of(i), loads_[i].wet, properties_);
+    if (ratio != blocks.mass_ratio[i]) work += blocks.set_mass_ratio(i, ratio);
+    if (!is_awake_[i]) remember(blocks, i);
+}
+
+void FluidLoads::remember(const Blocks& blocks, std::size_t i) {
+    Resting& resting = resting_[i];
+    resting.is_known = true;
+    resting.uncertainty = 0;
+    const auto* grid = std::get_if<FlowGrid>(&motion_);
+    if (grid == nullptr) return;
+    Vector low = blocks.sphere_centre(i, 0), high = low;
+    for (std::size_t k = 1; k < blocks.shape_of(i).spheres.size(); ++k) {
+        const Vector centre = blocks.sphere_centre(i, k);
+        low = low.cwiseMin(centre);
+        high = high.cwiseMax(centre);
     }
+    const auto points = grid->points_around(low.x(), high.x(), low.z(), high.z());
+    resting.is_known = points.has_value();
+    if (!points) return;
+    resting.points = *points;
+    resting.values = grid->values_at(*points);
+    resting.interval = none;
+}
+
+bool FluidLoads::stays_as_sampled(const Blocks& blocks, std::size_t i) {
+    Resting& resting = resting_[i];
+    if (is_awake_[i] || !resting.is_known) return false;
+    const auto* grid = std::get_if<FlowGrid>(&motion_);
+    if (grid == nullptr || resting.interval == grid->interval()) return true;
+    const FlowGrid::Change change = grid->largest_change(resting.points, resting.values);
+    // What follows from the sample besides the load must not differ either.
+    if (change.wet || (waves_reach_blocks < 0 && change.speed > wave_speed)) return false;
+    resting.interval = grid->interval();
+    // No arm is longer than the radius: the torque over it differs by no more than the force.
+    resting.uncertainty = 2 * largest_load_change(blocks.shape_of(i), change, properties_);
+    return true;
+}
+
+void FluidLoads::set_motion(std::variant<UniformWater, FlowGrid> motion) {
+    motion_ = std::move(motion);
+    forget_samples();
+}
+
+void FluidLoads::forget_samples() {
+    for (auto& resting : resting_) resting.is_known = false;
+}
+
+void FluidLoads::awake_changed(const std::vector<std::uint8_t>& is_awake) {
+    is_awake_ = is_awake;
+    for (std::size_t i = 0; i < is_awake.size(); ++i)
+        if (is_awake[i]) resting_[i] = {};
 }
 
 void FluidLoads::add(Blocks& blocks, std::span<const std::uint32_t> wanted, const std::vector<std::uint8_t>&,

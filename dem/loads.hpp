@@ -2,6 +2,7 @@
 /// is off is not in it.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <variant>
@@ -38,16 +39,39 @@ class FluidLoads final : public Load {
     void add(Blocks& blocks, std::span<const std::uint32_t> wanted,
              const std::vector<std::uint8_t>& is_wanted, double t) override;
     void account(const Blocks& blocks, std::span<const std::uint32_t> some, double dt) override;
-    void awake_changed(const std::vector<std::uint8_t>&) override {}
+    void awake_changed(const std::vector<std::uint8_t>& is_awake) override;
 
-    std::variant<UniformWater, FlowGrid> motion;
+    void set_motion(std::variant<UniformWater, FlowGrid> motion);
+    /// The next sample() is exact for every block: blocks were put elsewhere.
+    void forget_samples();
+    /// Those asleep keep the load of an earlier sample while the water around them has changed little: at
+    /// most by how much its force and, over the block's radius, its torque may differ by now, N.
+    double uncertainty(std::size_t block) const { return resting_[block].uncertainty; }
+    /// Makes the load of one block exact again, for the instant of the last sample().
+    void sample_block(Blocks& blocks, std::size_t block, double t);
+
     double work = 0;        ///< done by the water on blocks, buoyancy and added mass included, J
     double gross_work = 0;  ///< the same in absolute value, J
     double waves_reach_blocks =
         -1;  ///< first time the water at some block is faster than 0.1 m/s, s; -1: not yet
 
  private:
+    static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+    /// What the water was around a block that is asleep when it was sampled there last.
+    struct Resting {
+        bool is_known = false;
+        FlowGrid::Points points{};
+        std::vector<double> values;
+        std::size_t interval = none;  // of the grid's samples in time: for it the uncertainty has been found
+        double uncertainty = 0;
+    };
+    bool stays_as_sampled(const Blocks& blocks, std::size_t block);
+    void remember(const Blocks& blocks, std::size_t block);
+
+    std::variant<UniformWater, FlowGrid> motion_;
     FluidProperties properties_;
+    std::vector<std::uint8_t> is_awake_;
+    std::vector<Resting> resting_;
     std::vector<FluidLoad> loads_;
     std::vector<Vector> applied_;  // force of the last step
 };

@@ -30,6 +30,10 @@ int main(int argc, char** argv) {
                     layout->root().problem(key, "does not belong in a layout, which holds [wires] only");
         }
         const dem::Scene scene = dem::read_scene(file, layout ? &*layout : nullptr);
+        const common::Section wires = (layout ? *layout : file).section("wires");
+        if (command.verb == Verb::run && command.from.empty() && wires.has("put_back"))
+            wires.problem("put_back",
+                          "puts blocks of an earlier run back to where they were packed; it needs --from");
         file.finish();
         if (layout) layout->finish();
         if (command.verb == Verb::check) dem::check(command, file, scene);

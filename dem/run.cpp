@@ -99,7 +99,7 @@ Start packed_start(const Scene& scene, common::Progress& progress) {
     if (scene.packing.settle) {
         const auto packing = build_simulation(scene, true);
         if (packing->water() != nullptr)
-            packing->water()->motion = UniformWater{.element_diameter = scene.element.diameter};
+            packing->water()->set_motion(UniformWater{.element_diameter = scene.element.diameter});
         settle(*packing, scene.packing, [&](double t) { progress.update(t, "packing"); });
         take_over(*start.simulation, poses_of(packing->blocks), packing->memory().pairs);
     }
@@ -177,7 +177,7 @@ void pack(const common::StageCommand& command, const common::SceneFile& file, co
     try {
         const auto simulation = build_simulation(scene, true);
         if (simulation->water() != nullptr)
-            simulation->water()->motion = UniformWater{.element_diameter = scene.element.diameter};
+            simulation->water()->set_motion(UniformWater{.element_diameter = scene.element.diameter});
         WindowOutput output;
         const PackedPoses placed = poses_of(simulation->blocks);
         simulation->start(0);
@@ -242,7 +242,7 @@ void run(const common::StageCommand& command, const common::SceneFile& file, con
             if (!earlier) mount_layout(*start.simulation, scene, start.packed, nullptr);
             flow.require_cover(start.simulation->blocks);
             if (span && span->grid && start.simulation->water() != nullptr)
-                start.simulation->water()->motion = *span->grid;
+                start.simulation->water()->set_motion(*span->grid);
             start.simulation->blocks_were_placed(begin);
             report.set_first_energy(start.simulation->energy());
         }
@@ -251,7 +251,7 @@ void run(const common::StageCommand& command, const common::SceneFile& file, con
             geometry_of(simulation, start.packed, placement_digest(scene.placed, scene.surroundings)));
         for (std::int64_t index = folder.next_window(); span; span = flow.receive(++index)) {
             if (span->grid && simulation.water() != nullptr)
-                simulation.water()->motion = std::move(*span->grid);
+                simulation.water()->set_motion(std::move(*span->grid));
             common::Window window =
                 advance(simulation, start.packed, scene, span->begin, span->end, index, progress, report);
             folder.publish(std::move(window), state_of(simulation, start.packed, scene, report));

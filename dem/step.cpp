@@ -79,6 +79,7 @@ void Simulation::advance(double target) {
                 load->sample(blocks, begin + dt * static_cast<double>(k), hold);
             if (sleeping_) {
                 sum_all_forces();  // of those asleep too; contacts are those of the last step
+                if (sample_doubtful(begin + dt * static_cast<double>(k))) sum_all_forces();
                 bool changed = false;
                 dissipated_ += sleeping_->look(blocks, time_, changed);
                 if (changed) find_awake();
@@ -208,6 +209,19 @@ void Simulation::sum_all_forces() {
         if (!pair.contacts.empty()) add_pair(pair, pair.last, is_movable);
 }
 
+/// Sleepers whose load of water may have changed enough to wake them are sampled; true when there were any.
+bool Simulation::sample_doubtful(double t) {
+    bool any = false;
+    if (water_ == nullptr) return any;
+    for (const auto i : movable_) {
+        const double uncertainty = water_->uncertainty(i);
+        if (uncertainty == 0 || !sleeping_->may_wake(blocks, i, uncertainty)) continue;
+        water_->sample_block(blocks, i, t);
+        any = true;
+    }
+    return any;
+}
+
 void Simulation::note_overlap(const Pair& pair, double overlap) {
     largest_overlap_ = std::max(largest_overlap_, overlap);
     if (overlap > rules_.overlap_noted) ++deep_contact_steps_;
@@ -314,6 +328,7 @@ void Simulation::restore(const Memory& memory) {
         water_->work = memory.water_work;
         water_->gross_work = memory.gross_water_work;
         water_->waves_reach_blocks = memory.waves_reach_blocks;
+        water_->forget_samples();
     }
     if (sleeping_ && memory.sleeping) sleeping_->restore(*memory.sleeping);
     find_awake();

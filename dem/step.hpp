@@ -92,6 +92,7 @@ class Simulation {
     void add_pair(const Pair& pair, const PairForces& forces, const std::vector<std::uint8_t>& is_wanted);
     double finish_step(std::span<const std::uint32_t> some, double dt);
     void sum_all_forces();
+    bool sample_doubtful(double t);
     void note_overlap(const Pair& pair, double overlap);
     void check_values() const;
     void find_awake();

@@ -36,6 +36,7 @@ void FlowGrid::set_time(double t) {
     const auto right = std::upper_bound(time.begin() + 1, time.end() - (time.size() > 1 ? 1 : 0), t);
     const std::size_t k = time.size() > 1 ? static_cast<std::size_t>(right - time.begin()) - 1 : 0;
     const std::size_t next = std::min(k + 1, time.size() - 1);
+    interval_ = k;
     const double share = next > k ? std::clamp((t - time[k]) / (time[next] - time[k]), 0.0, 1.0) : 0.0;
     const float *before = history_.values.data() + k * now_.size(),
                 *after = history_.values.data() + next * now_.size();
@@ -65,6 +66,55 @@ WaterSample FlowGrid::at(const Vector& point) const {
         value[f] = (1 - above) * ((1 - right) * low[f] + right * low[f + fields]) +
                    above * ((1 - right) * high[f] + right * high[f + fields]);
     return {Vector(value[0], 0, value[1]), Vector(value[2], 0, value[3]), value[4]};
+}
+
+std::optional<FlowGrid::Points> FlowGrid::points_around(double x_low, double x_high, double z_low,
+                                                        double z_high) const {
+    const double left = (x_low - origin_x_) * per_spacing_x_, right = (x_high - origin_x_) * per_spacing_x_;
+    const double low = (z_low - origin_z_) * per_spacing_z_, high = (z_high - origin_z_) * per_spacing_z_;
+    if (!(left >= 0 && low >= 0 && right <= static_cast<double>(count_x_ - 1) &&
+          high <= static_cast<double>(count_z_ - 1)))
+        return {};
+    const auto after = [](double place, std::size_t count) {
+        return std::min(static_cast<std::size_t>(place) + 2, count);
+    };
+    return Points{static_cast<std::size_t>(left), after(right, count_x_), static_cast<std::size_t>(low),
+                  after(high, count_z_)};
+}
+
+std::vector<double> FlowGrid::values_at(const Points& points) const {
+    std::vector<double> values;
+    for (std::size_t j = points.j; j < points.end_j; ++j) {
+        const double* row = now_.data() + j * count_x_ * fields;
+        values.insert(values.end(), row + points.i * fields, row + points.end_i * fields);
+    }
+    return values;
+}
+
+FlowGrid::Change FlowGrid::largest_change(const Points& points, const std::vector<double>& earlier) const {
+    // Linear in time: between now and the end of the interval nothing is farther from the earlier values than
+    // at one of the two.
+    const std::size_t next = std::min(interval_ + 1, history_.time.size() - 1);
+    const float* then = history_.values.data() + next * now_.size();
+    const auto squared = [](double a, double b) { return a * a + b * b; };
+    double velocity = 0, acceleration = 0, speed = 0;
+    bool wet = false;
+    const double* old = earlier.data();
+    for (std::size_t j = points.j; j < points.end_j; ++j)
+        for (std::size_t i = points.i; i < points.end_i; ++i, old += fields) {
+            const double* now = now_.data() + (j * count_x_ + i) * fields;
+            const float* end = then + (j * count_x_ + i) * fields;
+            double last[fields];
+            for (std::size_t f = 0; f < fields; ++f) last[f] = static_cast<double>(end[f]);
+            for (const double* value : {now, static_cast<const double*>(last)}) {
+                velocity = std::max(velocity, squared(value[0] - old[0], value[1] - old[1]));
+                acceleration = std::max(acceleration, squared(value[2] - old[2], value[3] - old[3]));
+                speed = std::max(speed, squared(value[0], value[1]));
+                wet = wet || value[4] != old[4];
+            }
+            speed = std::max(speed, squared(old[0], old[1]));
+        }
+    return {std::sqrt(velocity), std::sqrt(acceleration), std::sqrt(speed), wet};
 }
 
 }  // namespace dem

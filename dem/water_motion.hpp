@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -61,12 +62,33 @@ class FlowGrid {
     /// Outside the grid: still water below z = 0 where the scene says so; else std::out_of_range.
     WaterSample at(const Vector& point) const;
 
+    /// Grid points from (i, j) to (end_i - 1, end_j - 1): what is interpolated anywhere in a box lies between
+    /// their values.
+    struct Points {
+        std::size_t i, end_i, j, end_j;
+    };
+    /// Those around a box in x and z, m; none when the box reaches outside the grid.
+    std::optional<Points> points_around(double x_low, double x_high, double z_low, double z_high) const;
+    /// Their values at the present instant, in the order of `largest_change`.
+    std::vector<double> values_at(const Points& points) const;
+
+    /// Bounds on how the water at some points differs from earlier values of theirs, from the present instant
+    /// to the end of the interval between two samples in time that it lies in.
+    struct Change {
+        double velocity = 0, acceleration = 0;  ///< largest difference, m/s, m/s^2
+        double speed = 0;                       ///< largest then or earlier, m/s
+        bool wet = false;                       ///< the wet fraction differs
+    };
+    Change largest_change(const Points& points, const std::vector<double>& earlier) const;
+    /// Number of that interval.
+    std::size_t interval() const { return interval_; }
+
  private:
     FlowHistory history_;
     bool still_outside_ = false;
     std::vector<double> now_;  // (z, x, fields)
     double origin_x_ = 0, origin_z_ = 0, per_spacing_x_ = 0, per_spacing_z_ = 0;
-    std::size_t count_x_ = 0, count_z_ = 0;
+    std::size_t count_x_ = 0, count_z_ = 0, interval_ = 0;
 };
 
 }  // namespace dem

@@ -4,18 +4,32 @@
 
 namespace dem {
 
+namespace {
+
+/// Factors of eq. (10) for one sphere of a shape.
+struct SphereFactors {
+    double volume, drag, inertia, viscous;
+};
+
+SphereFactors factors_of(const Shape& shape, const FluidProperties& properties) {
+    const Water& water = properties.water;
+    const double volume = properties.displaced_volume > 0
+                              ? properties.displaced_volume / static_cast<double>(shape.spheres.size())
+                              : properties.element.volume() * shape.elements_per_sphere;
+    return {.volume = volume,
+            .drag = 0.5 * water.density * properties.element.section() * shape.elements_per_sphere,
+            .inertia = water.density * (1 + water.added_mass_coefficient) * volume,
+            .viscous = 24 * water.viscosity / properties.element.diameter};
+}
+
+}  // namespace
+
 template <class Motion>
 FluidLoad sample_fluid_load(const Blocks& blocks, std::size_t block, const Motion& motion,
                             const FluidProperties& properties) {
     const Shape& shape = blocks.shape_of(block);
     const Water& water = properties.water;
-    const double d = properties.element.diameter;
-    const double volume = properties.displaced_volume > 0
-                              ? properties.displaced_volume / static_cast<double>(shape.spheres.size())
-                              : properties.element.volume() * shape.elements_per_sphere;
-    const double drag = 0.5 * water.density * properties.element.section() * shape.elements_per_sphere;
-    const double inertia = water.density * (1 + water.added_mass_coefficient) * volume;
-    const double viscous = 24 * water.viscosity / d;
+    const auto [volume, drag, inertia, viscous] = factors_of(shape, properties);
     const Vector buoyancy = -water.density * volume * properties.gravity;
 
     FluidLoad load{Vector::Zero(), Vector::Zero(), Rotation::Zero(), blocks.velocity[block], 0, 0};
@@ -48,6 +62,16 @@ FluidLoad sample_fluid_load(const Blocks& blocks, std::size_t block, const Motio
 
 template FluidLoad sample_fluid_load(const Blocks&, std::size_t, const UniformWater&, const FluidProperties&);
 template FluidLoad sample_fluid_load(const Blocks&, std::size_t, const FlowGrid&, const FluidProperties&);
+
+double largest_load_change(const Shape& shape, const FlowGrid::Change& change,
+                           const FluidProperties& properties) {
+    const SphereFactors factors = factors_of(shape, properties);
+    // ||u|u - |v|v| <= (|u| + |v|) |u - v|; a wet fraction of 1 is the most there can be.
+    const double slope =
+        factors.drag * (properties.water.drag_coefficient * 2 * change.speed + factors.viscous);
+    return static_cast<double>(shape.spheres.size()) *
+           (slope * change.velocity + factors.inertia * change.acceleration);
+}
 
 double mass_ratio(const Shape& shape, double wet, const FluidProperties& properties) {
     const double volume =

@@ -41,6 +41,11 @@ template <class Motion>
 FluidLoad sample_fluid_load(const Blocks& blocks, std::size_t block, const Motion& motion,
                             const FluidProperties& properties);
 
+/// Largest change of the force on any sphere of a block at rest while the water around it changes by no more
+/// than `change` and its wet fraction stays, summed over the spheres, N.
+double largest_load_change(const Shape& shape, const FlowGrid::Change& change,
+                           const FluidProperties& properties);
+
 /// Moving mass over dry mass of a block with wet fraction `wet`: (s + C_M wet) / s for a block of plain
 /// elements, eq. (8).
 double mass_ratio(const Shape& shape, double wet, const FluidProperties& properties);

@@ -26,10 +26,15 @@ void Sleeping::drop_anchor(const Blocks& blocks, std::size_t block, double t) {
     since_[block] = t;
 }
 
-bool Sleeping::load_changed(const Blocks& blocks, std::size_t block, double share) const {
-    const double change = (blocks.force[block] - force_[block]).norm() +
-                          (blocks.torque[block] - torque_[block]).norm() / blocks.shape_of(block).radius;
-    return change > share * weight_[block];
+double Sleeping::load_change(const Blocks& blocks, std::size_t block) const {
+    return (blocks.force[block] - force_[block]).norm() +
+           (blocks.torque[block] - torque_[block]).norm() / blocks.shape_of(block).radius;
+}
+
+bool Sleeping::may_wake(const Blocks& blocks, std::size_t block, double uncertainty) const {
+    constexpr double rounding = 1e-9;  // far above that of the sums, far below anything that matters
+    return is_asleep(block) &&
+           load_change(blocks, block) + uncertainty > (1 - rounding) * rules_.wake_load * weight_[block];
 }
 
 double Sleeping::look(Blocks& blocks, double t, bool& changed) {

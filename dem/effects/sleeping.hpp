@@ -28,6 +28,8 @@ class Sleeping {
     /// someone woke or slept.
     double look(Blocks& blocks, double t, bool& changed);
 
+    /// Whether the next look may wake this one if its load differs by `uncertainty` (N) from its present sum.
+    bool may_wake(const Blocks& blocks, std::size_t block, double uncertainty) const;
     bool is_asleep(std::size_t block) const { return asleep_[block] != 0; }
     std::size_t count() const;
     /// Everybody up (blocks were moved by hand).
@@ -45,7 +47,10 @@ class Sleeping {
 
  private:
     void drop_anchor(const Blocks& blocks, std::size_t block, double t);
-    bool load_changed(const Blocks& blocks, std::size_t block, double share) const;
+    bool load_changed(const Blocks& blocks, std::size_t block, double share) const {
+        return load_change(blocks, block) > share * weight_[block];
+    }
+    double load_change(const Blocks& blocks, std::size_t block) const;
     SleepRules rules_;
     std::vector<double> weight_;  // submerged, N
     std::vector<std::uint8_t> asleep_;

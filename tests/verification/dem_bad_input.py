@@ -100,6 +100,13 @@ with open(cut, "wb") as f:
 refused("truncated window of the flow", GOOD, "window_000000.h5", arguments=("--flow", other))
 refused("state file that is not there", GOOD, "nowhere.h5", arguments=("--from", "/nonexistent/nowhere.h5"))
 
+home = tempfile.mkdtemp(prefix="tsunagi_dem_")
+layout = os.path.join(home, "layout.toml")
+with open(layout, "w") as f:
+    f.write("[[wires.along]]\nrows = [1]\n[wires.put_back]\nrows = [1]\n")
+refused("blocks put back in a run that has moved none", GOOD, "layout.toml:3:", "wires.put_back", "needs --from", arguments=("--wires", layout))
+refused("the same in the scene itself", put("[wires.put_back]\nblocks = [1]\n"), "scene.toml:17:", "wires.put_back", "needs --from")
+
 packed = run(GOOD, verb="pack")
 check.true("packing for the state tests", packed.status == 0, packed.message)
 state = os.path.join(packed.folder, "state.h5")

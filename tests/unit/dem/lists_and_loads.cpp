@@ -247,6 +247,51 @@ TEST(FlowGrid, OutsideIsAnErrorUnlessStill) {
     EXPECT_EQ(still.at(Vector(1.01, 0, 0.3)).wet, 0);
 }
 
+TEST(FluidLoads, LoadKeptForASleeperIsOffByNoMoreThanItSays) {
+    // A standing wave of 2 s, sampled every 0.02 s; looks every 2 ms over several samples.
+    dem::FlowHistory history;
+    for (int k = 0; k <= 50; ++k) history.time.push_back(0.02 * k);
+    for (int i = 0; i < 11; ++i) history.x.push_back(0.02 * i);
+    for (int j = 0; j < 11; ++j) history.z.push_back(-0.4 + 0.02 * j);
+    for (const double t : history.time)
+        for (const double z : history.z)
+            for (const double x : history.x) {
+                const double u = (0.05 + x) * std::sin(3.14 * t), w = 0.3 * z * x * std::sin(3.14 * t + 1);
+                for (const double value : {u, w, 0.3 * std::cos(3.14 * t), x * std::cos(3.14 * t), 1.0})
+                    history.values.push_back(static_cast<float>(value));
+            }
+    World world;
+    world.add("beehive96", Vector(0.1, 0, -0.3), Vector::Zero(), false,
+              Quaternion(1, 0.2, 0.3, -0.1).normalized());
+    const dem::FluidProperties properties{
+        .water = world.water, .element = world.element, .gravity = Vector(0, 0, -9.81)};
+    const dem::FlowGrid grid(history);
+    dem::FluidLoads kept(world.blocks, properties, grid);
+    kept.waves_reach_blocks = 0;  // until they do, sleepers in faster water are sampled every time
+    kept.awake_changed({0});
+    const std::vector<std::uint32_t> wanted{0};
+    double largest_share = 0;
+    for (int k = 0; k < 450; ++k) {
+        const double t = 2e-3 * k;
+        dem::FluidLoads exact(world.blocks, properties, grid);
+        dem::Blocks by_kept = world.blocks, by_exact = world.blocks;
+        kept.sample(by_kept, t, 2e-3);
+        exact.sample(by_exact, t, 2e-3);
+        kept.add(by_kept, wanted, {1}, t);
+        exact.add(by_exact, wanted, {1}, t);
+        const double off = (by_kept.force[0] - by_exact.force[0]).norm() +
+                           (by_kept.torque[0] - by_exact.torque[0]).norm() / by_kept.shape_of(0).radius;
+        // Rounding of forces of about 1 N.
+        ASSERT_LE(off, kept.uncertainty(0) + 1e-12) << "t = " << t;
+        if (kept.uncertainty(0) > 0) largest_share = std::max(largest_share, off / kept.uncertainty(0));
+        if (k % 150 == 149) {
+            kept.sample_block(by_kept, 0, t);
+            EXPECT_EQ(kept.uncertainty(0), 0);
+        }
+    }
+    EXPECT_GT(largest_share, 0.2);  // a bound of any use: not far above what it bounds
+}
+
 TEST(Sleeping, RestsWhenNothingMovesAndWakesWhenPushed) {
     World world;
     world.gravity = Vector(0, 0, -9.81);
