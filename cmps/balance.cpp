@@ -60,8 +60,9 @@ void Balance::describe(common::RunRecord& record, const NearField& field, std::s
     }
     // nothing does work on the water where no wall moves and gravity is constant
     const bool is_closed = scene_.drive == Drive::none && scene_.gravity_file.empty();
-    record.set_invariant({"energy_gain", energy_gain_, "of rho g h / 2", is_closed ? 0.02 : infinity});
-    record.set_invariant({"largest_energy_gain", largest_energy_gain_, "of rho g h / 2", infinity});
+    record.set_invariant({"energy_gain", energy_gain_, "of rho g h / 2", infinity});
+    record.set_invariant(
+        {"largest_energy_gain", largest_energy_gain_, "of rho g h / 2", is_closed ? 0.02 : infinity});
     record.set_invariant({"particles_in_solid", static_cast<double>(in_solid_), "particles", 0.5});
     record.set_invariant(
         {"unconverged_solves", static_cast<double>(field.counts.unconverged), "-", infinity});

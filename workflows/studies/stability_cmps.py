@@ -4,9 +4,9 @@
     make -C workflows stability        (SMOKE=1: the corners only)
 
 The column of Lobovsky et al. (2014), 0.6 x 0.3 m in a tank of 1.61 m, 1.2 s: front, impact at the far wall, return. The step is
-a multiple of the default one (cmps.time_step_factor). Each run is judged: stable (done, no particle in the solid, no energy
-gained, level in the reservoir within two spacings of the experiment), noticed (the run stopped itself with a message), refused
-(before anything ran) or unstable (neither). Writes stability_cmps.csv and stability_cmps.png.
+a multiple of the default one (cmps.time_step_factor, 8 at most). Each run is judged: stable (done, its invariants hold, level in the
+reservoir within two spacings of the experiment), noticed (the run stopped itself with a message, or says in run.json that an
+invariant does not hold), refused (before anything ran) or unstable (none of these). Writes stability_cmps.csv and stability_cmps.png.
 """
 import argparse
 import csv
@@ -26,7 +26,7 @@ SCENE = """
 end = 1.2
 window = 1.2
 [gauges]
-reservoir = {x = 0.3, interval = 0.01}
+reservoir = {x = 0.3, interval = 0.06}
 [cmps]
 drive = "none"
 tank = [0, 1.61, 0, 0.6]
@@ -53,8 +53,9 @@ def judge(options, scene, folder, over_height, factor):
     t, level = run_folder.gauge(folder, "reservoir")
     wrong = numpy.interp(MEASURED[:, 0], t * numpy.sqrt(9.81 / HEIGHT), level / HEIGHT) - MEASURED[:, 1]
     rms = float(numpy.sqrt(numpy.mean(wrong**2)))
-    holds = record["invariants"]["particles_in_solid"]["holds"] and gained < 0.02 and rms * over_height < 2.0
-    return ("stable" if holds else "unstable"), gained, rms
+    if not all(invariant["holds"] for invariant in record["invariants"].values()):
+        return "noticed", gained, rms
+    return ("stable" if rms * over_height < 2.0 else "unstable"), gained, rms
 
 
 def main():
@@ -70,7 +71,7 @@ def main():
     scene = out / "dam_break.toml"
     scene.write_text(SCENE)
     resolutions = (6, 12) if options.smoke else (4, 6, 10, 15, 20, 30)
-    factors = (1.0, 8.0) if options.smoke else (0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0)
+    factors = (1.0, 8.0) if options.smoke else (0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
     rows = []
     for over_height in resolutions:
         for factor in factors:
