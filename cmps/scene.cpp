@@ -187,28 +187,30 @@ void read_numerics(const common::SceneFile& file, const Section& section, Scene&
     settings.pressure.surface = chosen<SurfaceCondition>(
         section, "surface", "p = 0 at detected surface particles, or smoothly at the surface itself",
         {{"smooth", SurfaceCondition::smooth}, {"detected", SurfaceCondition::detected}}, "smooth");
-    settings.pressure.density_weight = section.number(
-        "density_weight", "-", "gamma, weight of the density term in the source", Range::between(0, 1), 0.02);
+    settings.pressure.density_weight =
+        section.number("density_weight", "-", "gamma, weight of the density term in the source",
+                       Range::between(0, 1), settings.pressure.density_weight);
     settings.pressure.density = section.number("density", "kg/m3", "of water", Range::positive(), 1000.0);
     settings.negative_pressure = section.boolean("negative_pressure", "keep pressures below zero", false);
     settings.tolerance =
         section.number("tolerance", "-", "of the pressure solve, relative to its right-hand side",
-                       Range::between(1e-12, 0.1), 1e-3);
+                       Range::between(1e-12, 0.1), settings.tolerance);
     settings.multigrid_from = static_cast<std::size_t>(
         section.integer("multigrid_from", "unknowns from which the pressure is preconditioned by multigrid",
-                        Range::not_negative(), 10000));
+                        Range::not_negative(), static_cast<std::int64_t>(settings.multigrid_from)));
     settings.shifting = section.number("shifting", "-", "coefficient of particle shifting, 0: none",
-                                       Range::between(0, 1), 0.3);
+                                       Range::between(0, 1), settings.shifting);
     settings.velocity_filter =
         section.number("velocity_filter", "-", "strength of the filter of particle-scale velocities, 0: none",
-                       Range::between(0, 0.5), 0.02);
+                       Range::between(0, 0.5), settings.velocity_filter);
     settings.stabilisation =
         section.number("stabilisation", "-", "pairs nearer than this many l0 are pushed apart, 0: none",
-                       Range::between(0, 0.98), 0.9);
-    settings.courant = section.number("courant", "-", "largest u dt / l0", Range::between(0.001, 0.5), 0.3);
+                       Range::between(0, 0.98), settings.stabilisation);
+    settings.courant =
+        section.number("courant", "-", "largest u dt / l0", Range::between(0.001, 0.5), settings.courant);
     settings.time_step_factor =
         section.number("time_step_factor", "-", "on the largest step by speed, celerity and acceleration",
-                       Range::between(0.01, 10), 1.0);
+                       Range::between(0.01, 10), settings.time_step_factor);
     const auto gravity = section.numbers("gravity", "m/s2", "x and z component", 2, Range::any(),
                                          std::vector<double>{0.0, -9.81});
     settings.gravity_x = gravity[0], settings.gravity_z = gravity[1];

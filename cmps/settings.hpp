@@ -32,7 +32,7 @@ struct Settings {
     std::size_t most_iterations = 2000;
     std::size_t multigrid_from = 1500;  ///< unknowns from which multigrid is faster than incomplete Cholesky
     double shifting = 0.3;              ///< coefficient of particle shifting, 0: none
-    double velocity_filter = 0.02;      ///< strength of the filter of particle-scale velocities, 0: none
+    double velocity_filter = 0;         ///< strength of the filter of particle-scale velocities, 0: none
     double stabilisation = 0.9;         ///< pairs nearer than this many l0 are pushed apart, 0: none
     double courant = 0.3;               ///< u dt / l0
     double time_step_factor = 1;        ///< on the largest step by speed, celerity and acceleration

@@ -56,7 +56,7 @@ TEST(StillWater, PressureLevelAndCalm) {
     EXPECT_NEAR(water.mean, 1.0, 0.01);   // a fifth of a spacing of depth
     EXPECT_LT(water.noise, 0.005);        // a tenth of what the standard method leaves (4-7 %)
     EXPECT_NEAR(water.rise, 0.0, 0.005);  // a tenth of a spacing
-    EXPECT_LT(water.speed, 0.03);         // 2 % of the wave speed 1.7 m/s
+    EXPECT_LT(water.speed, 0.05);         // 3 % of the wave speed 1.7 m/s
 }
 
 }  // namespace
