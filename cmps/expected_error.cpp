@@ -16,11 +16,13 @@ struct Row {
 
 /// The ladder of workflows/studies/cost_cmps.py as measured with the default schemes on one
 /// lattice each; neighbouring lattices scatter by about half of the wave's figure.
-constexpr std::array<Row, 4> ladder = {{
-    {8, {.floor_pressure = 0.0071, .levels = 0.040, .wave_height = 0.27}},
-    {12, {.floor_pressure = 0.0066, .levels = 0.026, .wave_height = 0.033}},
-    {16, {.floor_pressure = 0.0027, .levels = 0.022, .wave_height = 0.036}},
-    {24, {.floor_pressure = 0.0016, .levels = 0.023, .wave_height = 0.021}},
+constexpr std::array<Row, 6> ladder = {{
+    {8, {.floor_pressure = 0.0050, .levels = 0.035, .wave_height = 0.151}},
+    {12, {.floor_pressure = 0.0039, .levels = 0.026, .wave_height = 0.014}},
+    {16, {.floor_pressure = 0.0025, .levels = 0.027, .wave_height = 0.041}},
+    {24, {.floor_pressure = 0.0015, .levels = 0.023, .wave_height = 0.012}},
+    {30, {.floor_pressure = 0.0011, .levels = 0.024, .wave_height = 0.017}},
+    {40, {.floor_pressure = 0.0010, .levels = 0.022, .wave_height = 0.016}},
 }};
 
 }  // namespace
