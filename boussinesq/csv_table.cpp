@@ -42,6 +42,11 @@ CsvTable read_csv(const std::filesystem::path& path) {
         const auto words = split(line);
         if (table.names.empty()) {
             table.names = words;
+            for (std::size_t i = 0; i < words.size(); ++i)
+                for (std::size_t j = 0; j < i; ++j)
+                    if (words[i] == words[j])
+                        throw common::InputError(fmt::format("{}:{}: two columns are named '{}'",
+                                                             path.string(), number, words[i]));
             table.columns.resize(words.size());
             continue;
         }

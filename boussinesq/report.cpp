@@ -236,8 +236,21 @@ void Report::fill_statistics(const std::vector<GaugeRecord>& gauges) {
             part(gauge.time),
             {part(gauge.elevation), part(gauge.second_elevation), part(gauge.third_elevation)},
             {gauge.x, gauge.array[0], gauge.array[1]}, scene_.still_depth(gauge.x), dispersion, frequencies);
-        record_.set_figure(key + "incident_height", reflection.incident_height);
-        record_.set_figure(key + "reflected_height", reflection.reflected_height);
+        double incident = reflection.incident_height, reflected = reflection.reflected_height;
+        if (scene_.waves.kind != WaveKind::regular) {
+            // Goda and Suzuki (1976): the lines tell the shares of the two, the variance of the records (mean
+            // of the three gauges) their sum, so that heights do not depend on which lines were taken.
+            const double other =
+                             wave_statistics(part(gauge.time), part(gauge.second_elevation)).root_mean_square,
+                         third =
+                             wave_statistics(part(gauge.time), part(gauge.third_elevation)).root_mean_square,
+                         own = statistics.root_mean_square;
+            const double variance = (own * own + other * other + third * third) / 3.0;
+            incident = 4.0 * std::sqrt(variance / (1.0 + reflection.coefficient * reflection.coefficient));
+            reflected = reflection.coefficient * incident;
+        }
+        record_.set_figure(key + "incident_height", incident);
+        record_.set_figure(key + "reflected_height", reflected);
         record_.set_figure(key + "reflection_coefficient", reflection.coefficient);
     }
 }

@@ -253,6 +253,13 @@ Scene read_scene(const common::SceneFile& file) {
             file.section("gauges").problem(gauge.name,
                                            fmt::format("x = {} m is outside the flume, {} to {} m", gauge.x,
                                                        scene.bed.front()[0], scene.bed.back()[0]));
+        constexpr double most_samples = 1e7;  // kept in memory: 40 bytes each
+        if (gauge.kind == common::Gauge::Kind::surface && gauge.interval != scene.output_interval &&
+            scene.time.end / gauge.interval > most_samples)
+            file.section("gauges").problem(
+                gauge.name,
+                fmt::format("interval of {} s gives {:.3g} samples in {} s; expected at most {:.0e}",
+                            gauge.interval, scene.time.end / gauge.interval, scene.time.end, most_samples));
     }
     decide_effects(file, wishes, accuracy, scene);
     scene.flow.spacing = scene.grid.spacing;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "boussinesq/reconstruction.hpp"
 
@@ -141,12 +142,14 @@ void shoreline_fluxes(Tile& tile, const FlowParameters& flow, double step) {
 
     // Face states as each cell sees them: index t holds cell t's own view of its offshore (plus) and
     // shoreward (minus) face.
+    constexpr double no_such_face = std::numeric_limits<double>::infinity();  // never the shallow one
     for (std::size_t t = from - 1; t < to; ++t) {
         double lowest = tile.depth[t];
         for (std::size_t n = t - 2; n <= t + 2; ++n) lowest = std::min(lowest, tile.depth[n]);
         const bool has_offshore = t >= from, has_shoreward = t + 1 < to;
-        const double h_plus = has_offshore ? tile.elevation_plus[t] - tile.face_bed[t] : 1.0;
-        const double h_minus = has_shoreward ? tile.elevation_minus[t + 1] - tile.face_bed[t + 1] : 1.0;
+        const double h_plus = has_offshore ? tile.elevation_plus[t] - tile.face_bed[t] : no_such_face;
+        const double h_minus =
+            has_shoreward ? tile.elevation_minus[t + 1] - tile.face_bed[t + 1] : no_such_face;
         const bool first_order =
             lowest <= flow.dry_depth || h_plus <= 0.25 * tile.depth[t] || h_minus <= 0.25 * tile.depth[t];
         tile.is_first_order[t] = first_order ? 1.0 : 0.0;

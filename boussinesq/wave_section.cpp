@@ -18,6 +18,8 @@ using common::Range;
 using common::Section;
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
+const std::vector<std::string> velocity_names{"u", "velocity", "u_m_s"};
+
 /// Reads a table whose rows are ordered by their first column; notes a problem and returns an empty table on
 /// a mistake.
 CsvTable read_ordered(const Section& section, const std::filesystem::path& path,
@@ -27,6 +29,15 @@ CsvTable read_ordered(const Section& section, const std::filesystem::path& path,
         table = read_csv(path);
     } catch (const common::InputError& error) {
         section.problem("file", error.what());
+        return {};
+    }
+    for (const auto* aliases : {&first, &second, &velocity_names}) {
+        std::vector<std::string> named;
+        for (const auto& name : table.names)
+            if (std::find(aliases->begin(), aliases->end(), name) != aliases->end()) named.push_back(name);
+        if (named.size() < 2) continue;
+        section.problem("file", fmt::format("{}: columns '{}' and '{}' are both {}", path.string(), named[0],
+                                            named[1], aliases->front()));
         return {};
     }
     const auto* order = table.column(first);
@@ -48,6 +59,70 @@ CsvTable read_ordered(const Section& section, const std::filesystem::path& path,
     return table;
 }
 
+/// Says what no record of incident waves holds: a level of its own, samples that miss the waves, waves that
+/// would have broken, water faster than its waves. `mean`: of the elevation; `crossings`: of it, upward.
+void check_record(const Section& section, const std::filesystem::path& path, const CsvTable& table,
+                  const WaveSection& waves, double interval, double mean, int crossings) {
+    const auto& time = waves.record_time;
+    const auto& elevation = waves.record_elevation;
+    const double fastest = std::sqrt(gravity * waves.depth);
+    for (std::size_t i = 0; i < waves.record_velocity.size(); ++i)
+        if (std::abs(waves.record_velocity[i]) > fastest) {
+            section.problem("file",
+                            fmt::format("{}:{}: u = {} m/s, but water outruns no wave: expected |u| up to "
+                                        "sqrt(g d) = {:.3g} m/s",
+                                        path.string(), table.lines[i], waves.record_velocity[i], fastest));
+            return;
+        }
+    constexpr double fewest_samples = 8.0;  // a crest between two of them is 8 % too low
+    if (waves.period < fewest_samples * interval) {
+        section.problem("file",
+                        fmt::format("{}: a sample every {:.3g} s of waves of {:.3g} s on average; expected "
+                                    "at least {} samples a wave",
+                                    path.string(), interval, waves.period, fewest_samples));
+        return;
+    }
+    if (crossings < 3) return;  // a pulse: it has a mean, and no waves to measure
+    // The set-down of steep waves is 1 % of their height, and a part of a wave left over adds 1 / (2 pi) of a
+    // height over the number of waves; what is more is the zero of a gauge, and would pour water in for ever.
+    const double largest_mean = waves.height * (0.02 + 1.0 / (two_pi * crossings));
+    if (std::abs(mean) > largest_mean) {
+        section.problem(
+            "file",
+            fmt::format("{}: eta has a mean of {:.3g} m, which would fill or drain the flume; expected "
+                        "at most {:.2g} m: take the mean off",
+                        path.string(), mean, largest_mean));
+        return;
+    }
+    // Higher waves only: ripples across the mean are short. A fifth more than a regular wave can be, since
+    // neighbours in a sea lend each other height.
+    double begun = time.front(), crest = 0, trough = 0;
+    std::size_t line = 0;
+    bool is_whole = false;
+    for (std::size_t i = 1; i < time.size(); ++i) {
+        const double before = elevation[i - 1] - mean, now = elevation[i] - mean;
+        if (before < 0.0 && now >= 0.0) {
+            const double height = crest - trough, period = time[i] - begun;
+            const double k = airy_wave_number(two_pi / std::max(period, 1e-9), waves.depth);
+            const double limit = 1.2 * largest_wave_height(two_pi / k, waves.depth);
+            if (is_whole && height > 0.5 * waves.height && height > limit) {
+                section.problem(
+                    "file",
+                    fmt::format("{}:{}: a wave of {:.3g} m and {:.3g} s in {} m of water is too steep: "
+                                "expected at most {:.3g} m",
+                                path.string(), table.lines[line], height, period, waves.depth, limit));
+                return;
+            }
+            is_whole = true;
+            begun = time[i];
+            line = i;
+            crest = trough = 0.0;
+        }
+        crest = std::max(crest, now);
+        trough = std::min(trough, now);
+    }
+}
+
 /// Highest solitary wave over depth (Longuet-Higgins and Fenton 1974): no wave is higher.
 constexpr double highest_solitary = 0.83;
 
@@ -66,7 +141,7 @@ void read_series(const Section& section, const Scene& scene, const LinearDispers
     if (table.lines.empty()) return;
     waves.record_time = *table.column({"t", "time", "t_s"});
     waves.record_elevation = *table.column({"eta", "surface_elevation", "eta_m"});
-    if (const auto* u = table.column({"u", "velocity", "u_m_s"})) waves.record_velocity = *u;
+    if (const auto* u = table.column(velocity_names)) waves.record_velocity = *u;
     std::vector<double> intervals;
     for (std::size_t i = 1; i < waves.record_time.size(); ++i)
         intervals.push_back(waves.record_time[i] - waves.record_time[i - 1]);
@@ -115,6 +190,7 @@ void read_series(const Section& section, const Scene& scene, const LinearDispers
         waves.period = 0;
         return;
     }
+    check_record(section, path, table, waves, usual, mean, crossings);
     const double begin = scene.bed.front()[0], end = scene.bed.back()[0];
     if (waves.position < begin || waves.position > end)
         section.problem("position",
@@ -135,7 +211,7 @@ void read_initial(const common::SceneFile& file, const Scene& scene, WaveSection
     if (table.lines.empty()) return;
     waves.initial_x = *table.column({"x", "x_m"});
     waves.initial_elevation = *table.column({"eta", "surface_elevation", "eta_m"});
-    if (const auto* u = table.column({"u", "velocity", "u_m_s"})) waves.initial_velocity = *u;
+    if (const auto* u = table.column(velocity_names)) waves.initial_velocity = *u;
     if (waves.initial_x.front() > scene.bed.front()[0] + 1e-9 ||
         waves.initial_x.back() < scene.bed.back()[0] - 1e-9)
         section.problem("file", fmt::format("{}: covers x = {} to {} m, the flume runs from {} to {} m",
@@ -169,9 +245,27 @@ void read_initial(const common::SceneFile& file, const Scene& scene, WaveSection
 void check_place(const Section& section, const Scene& scene, const SolitaryWave& wave) {
     const WaveSection& waves = scene.waves;
     const double begin = scene.bed.front()[0], end = scene.bed.back()[0];
-    if (waves.position < begin || waves.position > end) {
+    // A body cut off by an end starts with a wall of water there; the end of a beach is dry.
+    constexpr double tail = 0.01;
+    const double reach = wave.reach(tail), first = begin + reach,
+                 last = scene.bed.back()[1] < 0.0 ? end - reach : end;
+    if (first <= last && (waves.position < begin || waves.position > end)) {
         section.problem("position",
                         fmt::format("x = {} m is outside the flume, {} to {} m", waves.position, begin, end));
+        return;
+    }
+    if (first > last || waves.position < first - 1e-9 || waves.position > last + 1e-9) {
+        section.problem(
+            "position",
+            first > last
+                ? fmt::format(
+                      "a solitary wave of {} m reaches {:.4g} m to both sides: a flume of {:.4g} m cuts "
+                      "it off; expected at least {:.4g} m of flume",
+                      waves.height, reach, end - begin, 2.0 * reach)
+                : fmt::format(
+                      "an end of the flume cuts off a solitary wave with its crest at x = {:.4g} m, which "
+                      "reaches {:.4g} m to both sides; expected {:.4g} to {:.4g} m",
+                      waves.position, reach, first, last));
         return;
     }
     constexpr int pieces = 1000;
@@ -284,9 +378,9 @@ void read_waves(const common::SceneFile& file, Scene& scene, const LinearDispers
         }
         const SolitaryWave wave(dispersion.is_dispersive ? dispersion.alpha : 1.0, waves.height, waves.depth,
                                 0.0);
-        waves.length = 2.0 * wave.reach();
+        waves.length = 2.0 * wave.reach(1e-3);
         waves.position = section.number("position", "m", "of the crest at t = 0", Range::any(),
-                                        scene.bed.front()[0] + wave.reach());
+                                        scene.bed.front()[0] + wave.reach(1e-3));
         check_place(section, scene, wave);
     } else if (kind == "series") {
         waves.kind = WaveKind::series;

@@ -85,9 +85,9 @@ double SolitaryWave::elevation(double distance_from_crest) const {
                     s * (2.0 * before - 5.0 * a + 4.0 * b - after + s * (3.0 * (a - b) + after - before)));
 }
 
-double SolitaryWave::reach() const {
+double SolitaryWave::reach(double share) const {
     double distance = 0;
-    while (elevation(distance) > 1e-3 * height_) distance += step_;
+    while (elevation(distance) > share * height_) distance += step_;
     return distance;
 }
 

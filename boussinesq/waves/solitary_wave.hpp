@@ -22,8 +22,8 @@ class SolitaryWave : public IncidentWave {
             std::span<double> velocity) const override;
     double elevation(double distance_from_crest) const;
     double speed() const { return speed_; }
-    /// Distance from the crest where the elevation is a thousandth of the height, m.
-    double reach() const;
+    /// Distance from the crest where the elevation is `share` of the height, m.
+    double reach(double share) const;
 
  private:
     double height_, depth_, position_, speed_, decay_, step_;

@@ -1,4 +1,6 @@
 """Every mistake in a scene gets its one clear line, with file, line and key, exit 2, before anything runs."""
+import math
+
 from harness import *
 
 GOOD = """[time]
@@ -21,12 +23,13 @@ breaking = "auto"
 SERIES = 'kind = "series"\nfile = "record.csv"'
 
 
-def refuse(folder, old, new, *fragments, files=()):
+def refuse(folder, old, new, *fragments, files=(), text=GOOD):
     """The scene with `old` changed to `new` is refused in one line that names the scene and holds `fragments`."""
-    check(old in GOOD, f"the scene does not hold {old}")
+    check(old in text, f"the scene does not hold {old}")
+    good = text
     for name, text in files:
         (folder / name).write_text(text)
-    scene = write_scene(folder, GOOD.replace(old, new))
+    scene = write_scene(folder, good.replace(old, new))
     for verb in (("check", scene), ("run", scene, "--out", folder / "waves")):
         result = run("boussinesq", *verb)
         result.expect_error(2, "scene.toml", *fragments)
@@ -119,6 +122,28 @@ def records_that_cannot_be(folder):
 
 
 @test
+def records_that_would_harm(folder):
+    regular = 'kind = "regular"\nheight = 0.1\nperiod = 1.65'
+    sine = [0.02 * math.sin(2 * math.pi * 0.1 * i / 1.6) for i in range(200)]
+    refuse(folder, regular, SERIES, "record.csv", "mean of 0.003", "take the mean off", files=record(*[value + 0.003 for value in sine]))
+    refuse(folder, regular, SERIES, "record.csv", "at least 8 samples a wave", files=record(*[0.02 * (-1) ** (i // 3) for i in range(100)], interval=0.25))
+    refuse(folder, regular, SERIES, "record.csv", "too steep", files=record(*[12 * value for value in sine], interval=0.07))
+    refuse(folder, regular, SERIES, "record.csv:1", "two columns are named 'eta'", files=[("record.csv", "t,eta,eta\n" + "".join(f"{0.1 * i:.1f},{e},{e}\n" for i, e in enumerate(sine)))])
+    refuse(folder, regular, SERIES, "record.csv", "'eta' and 'eta_m' are both eta", files=[("record.csv", "t,eta,eta_m\n" + "".join(f"{0.1 * i:.1f},{e},{e}\n" for i, e in enumerate(sine)))])
+    refuse(folder, regular, SERIES, "record.csv:2", "outruns no wave", files=[("record.csv", "t,eta,u\n" + "".join(f"{0.1 * i:.1f},{e},40\n" for i, e in enumerate(sine)))])
+
+
+@test
+def solitary_waves_cut_off_by_an_end(folder):
+    regular = 'kind = "regular"\nheight = 0.1\nperiod = 1.65'
+    level = GOOD.replace("[15.0, -0.8], [23.0, -0.4], [50.0, -0.4]", "[50.0, -0.8]")
+    for position in (0.0, 50.0):
+        refuse(folder, regular, f'kind = "solitary"\nheight = 0.1\nposition = {position}', "waves.position", "cuts off", "to both sides", text=level)
+    refuse(folder, regular, 'kind = "solitary"\nheight = 0.001', "waves.position", "of flume", text=level.replace("[50.0, -0.8]", "[40.0, -0.8]"))
+    run("boussinesq", "check", write_scene(folder, level.replace(regular, 'kind = "solitary"\nheight = 0.3'))).expect_done()
+
+
+@test
 def initial_states_that_cannot_be(folder):
     waves = '[waves]\nkind = "regular"\nheight = 0.1\nperiod = 1.65'
     initial = '[initial]\nfile = "state.csv"'
@@ -133,6 +158,7 @@ def more_than_a_machine_holds(folder):
     refuse(folder, "window = 1.0", "window = 1e-9", "time.window", "windows")
     refuse(folder, 'shoreward = "absorbing"', "output_interval = 1e-9", "boussinesq.output_interval", "GB")
     refuse(folder, 'shoreward = "absorbing"', "spacing = 1e-9", "boussinesq.spacing", "cells")
+    refuse(folder, '"H5-1" = 30.0', '"H5-1" = {x = 30.0, interval = 1e-9}', "gauges.H5-1", "samples", "1e+07")
 
 
 @test

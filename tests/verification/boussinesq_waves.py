@@ -82,6 +82,49 @@ def irregular_waves_have_the_height_of_their_spectrum(folder):
         check_between(f"{kind}: H_1/3 over 4 sigma", ratio, 0.88, 1.02, "", "0.95 in Goda's field data")
 
 
+@test
+def incident_height_does_not_depend_on_the_length_of_the_record(folder):
+    waves = 'kind = "jonswap"\nheight = 0.05\nperiod = 2.0\nseed = 3'
+    for end, bound in ((120.0, 0.10), (800.0, 0.04)):
+        open_flume = run_flume(folder, flume(waves=waves, end=end, gauges=(20, 25, 30)), name=f"sponge{end:.0f}")
+        spectral, incident = gauge_figures(open_flume, "spectral_height"), gauge_figures(open_flume, "incident_height")
+        check_below(f"{end:.0f} s, sponge: incident over spectral height", abs(incident / spectral - 1).max(), 0.03, "", "the sponge sends back a per cent; gauges a quarter length apart scatter by 2 %")
+        walled = run_flume(folder, flume(waves=waves, end=end, gauges=(20, 25, 30), more='shoreward = "wall"'), name=f"wall{end:.0f}")
+        check_below(f"{end:.0f} s, wall: incident height over that without the wall", gauge_figures(walled, "incident_height").mean() / incident.mean() - 1, bound, "",
+                    "reflected waves arrive later: another part of the sea; a mean over half a length of standing waves")
+
+
+@test
+def similar_scenes_give_similar_waves(folder):
+    # Froude similarity: the equations know no length of their own, so neither may the code. A beach with breaking waves.
+    for breaking in ("eddy_viscosity", "hydrostatic"):
+        found = {}
+        for scale in (0.1, 1.0, 100.0):
+            period = 1.65 * scale ** 0.5
+            text = f"""
+[time]
+end = {12 * period!r}
+window = {4 * period!r}
+[flume]
+bed = [[0, {-0.8 * scale!r}], [{18 * scale!r}, {-0.8 * scale!r}], [{38 * scale!r}, {0.2 * scale!r}]]
+[waves]
+kind = "regular"
+height = {0.12 * scale!r}
+period = {period!r}
+[boussinesq]
+breaking = "{breaking}"
+output_interval = {period!r}
+[gauges]
+toe = {{x = {15 * scale!r}, interval = {period / 60!r}}}
+surf = {{x = {31 * scale!r}, interval = {period / 60!r}}}
+"""
+            figures = run_flume(folder, text, name=f"{breaking}{scale}")
+            found[scale] = numpy.array([figures["gauges"][name][key] / scale for name in ("toe", "surf") for key in ("mean_height", "set_up", "highest")]
+                                       + [figures["run_up"]["level"] / scale, figures["breaking"]["most_offshore"] / scale])
+        for scale in (0.1, 100.0):
+            check_below(f"{breaking}: scale {scale} against 1", abs(found[scale] - found[1.0]).max(), 1e-6, "m at scale 1", "rounding, which breaking multiplies")
+
+
 def low_passed(values, interval, highest):
     """Frequencies up to `highest` (Hz) but the mean."""
     spectrum, frequency = numpy.fft.fft(values), abs(numpy.fft.fftfreq(len(values), interval))
