@@ -6,10 +6,6 @@
 namespace boussinesq {
 namespace {
 
-/// The equations hold over mild slopes; across a step they would all but stop the flow, so that the
-/// dispersive parts on both sides are uncoupled and the flow over it is hydrostatic.
-constexpr double steepest_slope = 1.0;
-
 constexpr double square(double x) {
     return x * x;
 }
@@ -24,10 +20,11 @@ void wet_slopes(Tile& tile, const FlowParameters& flow) {
 
 /// Marks the cells whose flow is hydrostatic: where the fluxes are first order (near dry cells and over bed
 /// steps as high as the water), their neighbours, and bores (listed, or a
-/// surface that jumps by half the depth from cell to cell). Elsewhere the slope is the very gradient the
-/// fluxes make, weighted with the depths at the faces: any other one would let the dispersive part feed on
-/// the difference over a rough bed.
-void shoreline_slopes(Tile& tile, const FlowParameters& flow, const unsigned char* bore) {
+/// surface that jumps by half the depth from cell to cell), bed steps and open ends. Elsewhere the slope is
+/// the very gradient the fluxes make, weighted with the depths at the faces: any other one would let the
+/// dispersive part feed on the difference over a rough bed.
+void shoreline_slopes(Tile& tile, const FlowParameters& flow, const unsigned char* hydrostatic,
+                      const unsigned char* bore) {
     const double scale = 0.5 * gravity / flow.alpha / flow.spacing;
     for (std::size_t t = tile.begin() - 1; t < tile.end() + 1; ++t) {
         const bool rough =
@@ -39,7 +36,7 @@ void shoreline_slopes(Tile& tile, const FlowParameters& flow, const unsigned cha
         const double least = std::min(std::min(tile.depth[t - 1], tile.depth[t]), tile.depth[t + 1]);
         const bool is_bore = jump > 0.5 * least || square(speed_jump) > 0.25 * gravity * least ||
                              (bore != nullptr && bore[tile.first + t] != 0);
-        tile.held[t] = rough || is_bore ? 1.0 : 0.0;
+        tile.held[t] = rough || is_bore || hydrostatic[tile.first + t] != 0 ? 1.0 : 0.0;
         const double e = tile.elevation[t];
         const double left = tile.elevation_minus[t] + tile.elevation_plus[t] - 2.0 * e;
         const double right = tile.elevation_minus[t + 1] + tile.elevation_plus[t + 1] - 2.0 * e;
@@ -60,8 +57,9 @@ inline double face_difference(const double* v, std::size_t t) {
 }
 
 /// alpha h T + h on the left, h ((g/alpha) eta_x + Q) on the right, from the slopes.
-/// Beside dry cells (`is_smooth` false) face values come from the two cells at the face only.
-template <bool is_smooth>
+/// Beside dry cells (`is_smooth` false) face values come from the two cells at the face only. `has_held`:
+/// some cells of the tile are held.
+template <bool is_smooth, bool has_held>
 void assemble(Tile& tile, const FlowParameters& flow) {
     const double inverse = 1.0 / flow.spacing;
     const double sqrt3 = std::sqrt(3.0);
@@ -76,6 +74,7 @@ void assemble(Tile& tile, const FlowParameters& flow) {
         tile.bed_slope[t] = std::clamp((b[t] - b[t - 1]) * inverse, -steepest_slope, steepest_slope);
     for (std::size_t t = from - 2; t < to + 2; ++t) {
         tile.curvature[t] = square(h[t] * u[t]) * (bed_slope[t + 1] - bed_slope[t]) * inverse;
+        if constexpr (is_smooth && has_held) tile.curvature[t] *= 1.0 - tile.held[t];
     }
     for (std::size_t t = from - 1; t < to + 2; ++t) {
         const double depth = is_smooth ? face_value(h, t) : 0.5 * (h[t - 1] + h[t]);
@@ -84,7 +83,8 @@ void assemble(Tile& tile, const FlowParameters& flow) {
         // No coupling and none but hydrostatic pressure at the edge of held cells: the natural condition,
         // which keeps the operator symmetric and momentum conserved.
         const double mild = std::abs(b[t] - b[t - 1]) * inverse > steepest_slope ? 0.0 : 1.0;
-        const double coupled = is_smooth ? mild : mild * (1.0 - tile.held[t - 1]) * (1.0 - tile.held[t]);
+        double coupled = mild;
+        if constexpr (has_held) coupled *= (1.0 - tile.held[t - 1]) * (1.0 - tile.held[t]);
         const double weight = coupled * flow.alpha * depth;
         // The smaller depth keeps the matrix positive.
         const double numerov = coupled * std::min(h[t - 1], h[t]) / 12.0;
@@ -104,6 +104,7 @@ void assemble(Tile& tile, const FlowParameters& flow) {
                         0.5 * (tile.bed_stretch[t + 1] + tile.bed_stretch[t]) +
                         0.25 * (tile.curvature[t + 1] - tile.curvature[t - 1]) * inverse +
                         h[t] * square(u[t]) * bend * slope;
+        if constexpr (is_smooth && has_held) tile.force[t] *= 1.0 - tile.held[t];
     }
     for (std::size_t t = from; t < to; ++t) {
         const double averaged_slope =
@@ -115,21 +116,37 @@ void assemble(Tile& tile, const FlowParameters& flow) {
     }
 }
 
+/// Rows of held cells: D = 0, nothing else.
+void release_held(Tile& tile) {
+    for (std::size_t t = tile.begin(); t < tile.end(); ++t) {
+        if (tile.held[t] == 0.0) continue;
+        tile.diagonal[t] = 1.0;
+        tile.right_side[t] = 0.0;
+    }
+}
+
 }  // namespace
 
 void assemble_wet_dispersion(Tile& tile, const FlowParameters& flow) {
     wet_slopes(tile, flow);
-    assemble<true>(tile, flow);
+    assemble<true, false>(tile, flow);
 }
 
-void assemble_shoreline_dispersion(Tile& tile, const FlowParameters& flow, const unsigned char* bore) {
-    shoreline_slopes(tile, flow, bore);
-    assemble<false>(tile, flow);
-    for (std::size_t t = tile.begin(); t < tile.end(); ++t) {
-        if (tile.held[t] == 0.0) continue;
-        tile.diagonal[t] = 1.0;
-        tile.right_side[t] = tile.elevation_slope[t];
+void assemble_wet_dispersion(Tile& tile, const FlowParameters& flow, const unsigned char* hydrostatic) {
+    wet_slopes(tile, flow);
+    for (std::size_t t = tile.begin() - 2; t < tile.end() + 2; ++t) {
+        tile.held[t] = hydrostatic[tile.first + t] != 0 ? 1.0 : 0.0;
+        if (tile.held[t] != 0.0) tile.elevation_slope[t] = 0.0;
     }
+    assemble<true, true>(tile, flow);
+    release_held(tile);
+}
+
+void assemble_shoreline_dispersion(Tile& tile, const FlowParameters& flow, const unsigned char* hydrostatic,
+                                   const unsigned char* bore) {
+    shoreline_slopes(tile, flow, hydrostatic, bore);
+    assemble<false, true>(tile, flow);
+    release_held(tile);
 }
 
 void eliminate(Tile* left, Tile* right, DispersionSystem& system, ChainEnds& ends) {

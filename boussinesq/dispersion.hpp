@@ -11,8 +11,8 @@
 /// which makes the system fourth-order accurate on a level bed, second order where the bed bends.
 /// Unconditionally stable as a linear solve.
 ///
-/// Where D is `held` (dry cells, their neighbours, bores) it equals (g/alpha) eta_x: the flow there is
-/// hydrostatic.
+/// Where cells are `held` (dry ones, their neighbours, bores, bed steps, open ends) the flow is hydrostatic:
+/// the system ends there with its natural condition.
 #pragma once
 
 #include "boussinesq/cell_array.hpp"
@@ -21,13 +21,22 @@
 
 namespace boussinesq {
 
+/// The equations hold over mild slopes; across a step they would all but stop the flow, so that the
+/// dispersive parts on both sides are uncoupled and the flow over it is hydrostatic. Above 1 by more than
+/// rounding, so that a face of 1:1 is not now mild, now steep.
+inline constexpr double steepest_slope = 1.0 + 1e-9;
+
 /// Fills off_diagonal, diagonal, right_side and elevation_slope (already times g/alpha) of a tile that is wet
 /// throughout.
 void assemble_wet_dispersion(Tile& tile, const FlowParameters& flow);
 
-/// The same where cells may be dry or are listed in `bore` (padded, non-zero: hydrostatic); `bore` may be
-/// null.
-void assemble_shoreline_dispersion(Tile& tile, const FlowParameters& flow, const unsigned char* bore);
+/// The same where some cells are `hydrostatic` (padded, non-zero).
+void assemble_wet_dispersion(Tile& tile, const FlowParameters& flow, const unsigned char* hydrostatic);
+
+/// The same where cells may be dry, are `hydrostatic` or are listed in `bore` (both padded, non-zero); `bore`
+/// may be null.
+void assemble_shoreline_dispersion(Tile& tile, const FlowParameters& flow, const unsigned char* hydrostatic,
+                                   const unsigned char* bore);
 
 /// Eliminated tridiagonal system of the whole flume: row i reads D_i = value_i - ratio_i D_(neighbour nearer
 /// the middle). Elimination runs from both ends towards the middle at once: two independent chains hide each

@@ -46,7 +46,30 @@ FlowStep::FlowStep(const Grid& grid, Bed bed, const FlowParameters& flow, FlowTe
       second_(grid),
       system_(grid),
       left_tile_(std::make_unique<Tile>()),
-      right_tile_(std::make_unique<Tile>()) {}
+      right_tile_(std::make_unique<Tile>()) {
+    mark_hydrostatic_cells();
+}
+
+void FlowStep::mark_hydrostatic_cells() {
+    const std::size_t first = ghost_cells, last = ghost_cells + grid_.cells;  // inner cells [first, last)
+    hydrostatic_.assign(grid_.padded(), 0);
+    // The fourth-order values of the dispersive part reach two cells to either side: none of them may look
+    // across a step.
+    for (std::size_t k = first; k <= last; ++k)
+        if (std::abs(bed_.level(k) - bed_.level(k - 1)) > steepest_slope * grid_.spacing)
+            std::fill(&hydrostatic_[k - 2], &hydrostatic_[k + 2], 1);
+    // At an open end long waves leave by their own characteristics; nothing carries short ones out.
+    constexpr std::size_t outlet = 4;
+    if (flow_.offshore == End::open)
+        std::fill(hydrostatic_.begin(), hydrostatic_.begin() + first + outlet, 1);
+    if (flow_.shoreward == End::open)
+        std::fill(hydrostatic_.end() - ghost_cells - outlet, hydrostatic_.end(), 1);
+    for (std::size_t tile = 0; tile < grid_.cells; tile += tile_cells) {
+        const std::size_t end = std::min(tile + tile_cells, grid_.cells) + 2 * ghost_cells;
+        tile_has_hydrostatic_.push_back(std::any_of(&hydrostatic_[tile], &hydrostatic_[0] + end,
+                                                    [](unsigned char mark) { return mark != 0; }));
+    }
+}
 
 void FlowStep::fill_ghosts(WaveState& state) const {
     double* h = state.depth.data();
@@ -151,10 +174,13 @@ void FlowStep::sweep_tile(Tile& tile, const WaveState& start, double start_share
     ahead.fetch_to_write(out.depth);
     if constexpr (with_dispersion) {
         ahead.fetch_to_write(system_.ratio);
-        if (wet)
-            assemble_wet_dispersion(tile, flow_);
+        const unsigned char* hydrostatic = hydrostatic_.data();
+        if (!wet)
+            assemble_shoreline_dispersion(tile, flow_, hydrostatic, bores_);
+        else if (tile_has_hydrostatic_[tile.first / tile_cells])
+            assemble_wet_dispersion(tile, flow_, hydrostatic);
         else
-            assemble_shoreline_dispersion(tile, flow_, bores_);
+            assemble_wet_dispersion(tile, flow_);
         // D is odd at a wall, even at an open end.
         const std::size_t last = tile.end() - 1;
         if (tile.first == 0) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "boussinesq/dispersion.hpp"
 #include "boussinesq/grid.hpp"
@@ -64,6 +65,7 @@ class FlowStep {
     void sweep_tile(Tile& tile, const WaveState& start, double start_share, const WaveState& in,
                     double stage_share, double step, WaveState& out);
     void fill_ghosts(WaveState& state) const;
+    void mark_hydrostatic_cells();
 
     Grid grid_;
     Bed bed_;
@@ -72,6 +74,8 @@ class FlowStep {
     WaveState before_, first_, second_;
     DispersionSystem system_;
     std::unique_ptr<Tile> left_tile_, right_tile_;
+    std::vector<unsigned char> hydrostatic_;  ///< padded cells, non-zero: at bed steps and open ends
+    std::vector<bool> tile_has_hydrostatic_;  ///< tiles with such cells in them or beside them
     const unsigned char* bores_ = nullptr;
     double water_made_ = 0, water_through_ends_ = 0;
     double step_share_ = 0;  ///< of the stage in hand in the whole step: 1/6, 1/6, 2/3

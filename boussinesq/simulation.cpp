@@ -47,7 +47,7 @@ double Simulation::next_step() {
         throw common::RunError(
             fmt::format("unstable at t = {:.6g} s, step {}: depth {:.4g} m and velocity {:.4g} m/s in cell "
                         "{} (x = {:.6g} m); "
-                        "the windows published so far are sound; try a smaller boussinesq.courant or spacing",
+                        "the windows published so far are sound; try a smaller boussinesq.courant",
                         time_, steps_, state_.depth[worst], worst_speed, worst - ghost_cells,
                         grid_.centre(worst - ghost_cells)));
     }

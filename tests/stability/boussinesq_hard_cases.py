@@ -104,6 +104,28 @@ def vertical_step_in_the_bed(folder):
 
 
 @test
+def steep_waves_over_a_step_at_three_cell_sizes(folder):
+    bed = [(0, -0.8), (25, -0.8), (25.001, -0.25), (50, -0.25)]
+    for spacing in (0.1, 0.05, 0.025):
+        for height in (0.12, 0.25):  # half and all of the depth behind
+            figures = run_scene(folder, flume(bed, 40.0, waves=f'kind = "regular"\nheight = {height}\nperiod = 2.2', more=f"spacing = {spacing}\noutput_interval = 1.0", gauges="before = 15.0"), name=f"dx{spacing}h{height}")
+            check_between(f"dx = {spacing}, H = {height}: reflection of the step", figures["gauges"]["before"]["reflection_coefficient"], 0.2, 0.45, "", "long waves: 0.28; higher waves more")
+
+
+@test
+def high_waves_leave_by_open_ends(folder):
+    for spacing in (0.1, 0.05):
+        run_scene(folder, flume([(0, -1), (50, -1)], 25.0, waves='kind = "solitary"\nheight = 0.6\nposition = 15.0', more=f'spacing = {spacing}\noutput_interval = 1.0\nshoreward = "open"\noffshore = "open"'), name=f"solitary{spacing}")
+        elevation = run_folder.read_series(folder / f"solitary{spacing}", "/surface_elevation")[1]
+        check_below(f"dx = {spacing}: left of a solitary wave of 0.6", abs(elevation[-1]).max() / 0.6, 0.06, "", "its width is a few depths: (k d)^2 / 6 of its speed is not matched")
+        x = numpy.linspace(0, 50, 1001)
+        file = write_initial(folder, x, numpy.where(x < 25, 0.3, 0.0), name="step.csv")
+        run_scene(folder, flume([(0, -1), (50, -1)], 30.0, initial=file, more=f"spacing = {spacing}\noutput_interval = 1.0"), name=f"step{spacing}")
+        elevation = run_folder.read_series(folder / f"step{spacing}", "/surface_elevation")[1]
+        check_below(f"dx = {spacing}: left of a step of 0.3", abs(elevation[-1]).max() / 0.3, 0.15, "", "water runs in over no end: the level falls to still water but for undular waves sent back")
+
+
+@test
 def full_standing_wave_at_a_wall(folder):
     # Limiting standing waves: H/L = 0.218 tanh(kd) (Wiegel 1964); incident waves of half of 80 % of it.
     height = 0.5 * 0.8 * 0.218 * 3.71 * numpy.tanh(1.35)

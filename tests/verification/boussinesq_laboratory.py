@@ -88,13 +88,14 @@ output_interval = 1.0
 def run_up_scene(height, slope, spacing, friction=0.0):
     toe = 1.0 / slope
     crest = toe + numpy.sqrt(4.0 / (3.0 * height)) * numpy.arccosh(numpy.sqrt(20.0))
+    offshore = max(25.0, 3.2 / numpy.sqrt(0.75 * height))  # the wave is 1 % of its height 3.0 / sqrt(0.75 H) off its crest
     top = 1.3 if friction == 0.0 else 1.0
     return f"""
 [time]
 end = {(crest + 12.0 / slope) / numpy.sqrt(9.81)}
 window = 10.0
 [flume]
-bed = [[{-crest - 25.0}, -1.0], [{-toe}, -1.0], [{top / slope}, {top}]]
+bed = [[{-crest - offshore}, -1.0], [{-toe}, -1.0], [{top / slope}, {top}]]
 [waves]
 kind = "solitary"
 height = {height}
