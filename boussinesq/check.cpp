@@ -101,6 +101,7 @@ void print_check(const common::SceneFile& file, const Scene& scene, bool all) {
     if (expected.relative_error > 0)
         lines.push_back({"error", fmt::format("about {:.1g} of the wave height ({})", expected.relative_error,
                                               expected.error_from)});
+    if (!scene.sponge_note.empty()) lines.push_back({"note", scene.sponge_note});
     common::print_check_report(scene.effects, lines);
 }
 

@@ -114,6 +114,7 @@ Report::Report(const std::filesystem::path& folder, const common::SceneFile& fil
         record_.set_figure("waves.ursell",
                            ursell_number(scene.waves.height, scene.waves.length, scene.waves.depth));
     }
+    if (!scene.sponge_note.empty()) record_.set_note("shoreward_sponge", scene.sponge_note);
     record_.write_running();
 }
 

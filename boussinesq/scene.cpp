@@ -120,6 +120,13 @@ void read_grid_and_ends(const common::SceneFile& file, common::Accuracy accuracy
         scene.shoreward_sponge =
             section.number("shoreward_sponge", "m", "length of the absorbing zone", Range::positive(),
                            std::min(local > 0 ? 2.5 * local : 0.1 * length, 0.3 * length));
+    if (scene.shoreward_sponge > 0 && local > 0 && scene.shoreward_sponge < 2.49 * local)
+        scene.sponge_note = fmt::format(
+            "the shoreward sponge is {:.3g} m, {:.2g} wave lengths, and sends part of the waves back: it "
+            "should have "
+            "2.5 lengths, {:.3g} m{}",
+            scene.shoreward_sponge, scene.shoreward_sponge / local, 2.5 * local,
+            section.has("shoreward_sponge") ? "" : "; it is cut to three tenths of the flume");
     if (scene.generation_length + scene.offshore_sponge + scene.shoreward_sponge > 0.95 * length)
         flume.problem(
             "bed",

@@ -53,6 +53,7 @@ struct Scene {
     bool breaks_as_bores = false;  ///< hydrostatic bores in place of eddy viscosity
     EddyViscosityConstants breaking;
     std::vector<common::EffectRecord> effects;
+    std::string sponge_note;  ///< the flume leaves the shoreward sponge less length than it should have
     Expectation expectation;
 
     double still_depth(double x) const { return -common::bed_level(bed, x); }
