@@ -78,8 +78,7 @@ TEST(SolitaryWave, SpeedOfTheClassicalEquationsIsTheExactOne) {
 TEST(SolitaryWave, KeepsShapeSpeedAndEnergyOverAHundredDepths) {
     for (const double alpha : {1.0, 1.153}) {
         const Outcome outcome = travel(alpha, 0.2, 0.1);
-        EXPECT_LT(outcome.shape_error,
-                  5e-4);  // second order: 1.3e-4 measured; three times that is a regression
+        EXPECT_LT(outcome.shape_error, 1.5e-4);           // 4.7e-5 measured; three times that is a regression
         EXPECT_LT(std::abs(outcome.speed_error), 1e-4);   // a hundredth of a cell in a hundred depths
         EXPECT_LT(std::abs(outcome.height_error), 2e-3);  // the cell average of the crest is 5e-4 lower
         EXPECT_LT(std::abs(outcome.energy_error), 5e-4);  // dissipation of the fluxes
@@ -88,7 +87,7 @@ TEST(SolitaryWave, KeepsShapeSpeedAndEnergyOverAHundredDepths) {
 
 TEST(SolitaryWave, KeepsFormAtThreeFifthsOfTheDepth) {
     const Outcome outcome = travel(1.153, 0.6, 0.1);
-    EXPECT_LT(outcome.shape_error, 1e-2);  // steepest wave asked for; 3e-3 measured
+    EXPECT_LT(outcome.shape_error, 2e-3);  // steepest wave asked for; 7e-4 measured
     EXPECT_LT(std::abs(outcome.energy_error), 5e-3);
 }
 
