@@ -7,7 +7,6 @@ stopped itself with a message), refused (before anything ran) or unstable (neith
 stability_boussinesq.png.
 """
 import argparse
-import csv
 import os
 import pathlib
 import subprocess
@@ -17,6 +16,7 @@ import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import run_folder  # noqa: E402
+import stability_map  # noqa: E402
 
 DEPTH, HEIGHT = 0.6, 0.15
 SCENE = f"""
@@ -71,22 +71,8 @@ def main():
             verdict, height = judge(options, scene, out / "run", spacing, courant)
             rows.append({"spacing_over_depth": spacing / DEPTH, "courant": courant, "verdict": verdict, "largest_height_over_incident": height})
             print(f"dx/h {spacing / DEPTH:.3f}  Courant {courant:.2f}  {verdict}  {height:.2f}", flush=True)
-    with open(options.out / "stability_boussinesq.csv", "w", newline="") as file:
-        writer = csv.DictWriter(file, list(rows[0]))
-        writer.writeheader()
-        writer.writerows(rows)
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as pyplot
-    figure, axis = pyplot.subplots(figsize=(5.5, 4))
-    for verdict, colour in VERDICTS.items():
-        shown = [row for row in rows if row["verdict"] == verdict]
-        axis.loglog([row["spacing_over_depth"] for row in shown], [row["courant"] for row in shown], "s", color=colour, markersize=12, label=verdict)
-    axis.set(xlabel="cell size over depth", ylabel="Courant number", title="boussinesq: waves breaking on 1:10")
-    axis.legend(fontsize=7)
-    figure.tight_layout()
-    figure.savefig(options.out / "stability_boussinesq.png", dpi=130)
-    print(options.out / "stability_boussinesq.png")
+    stability_map.write(rows, options.out / "stability_boussinesq", "spacing_over_depth", "courant", VERDICTS,
+                        "cell size over depth", "Courant number", "boussinesq: waves breaking on 1:10")
 
 
 if __name__ == "__main__":

@@ -4,12 +4,11 @@
     make -C workflows stability        (SMOKE=1: the corners only)
 
 The column of Lobovsky et al. (2014), 0.6 x 0.3 m in a tank of 1.61 m, 1.2 s: front, impact at the far wall, return. The step is
-a multiple of the default one (cmps.time_step_factor, 8 at most). Each run is judged: stable (done, its invariants hold, level in the
+a multiple of the default one (cmps.time_step_factor). Each run is judged: stable (done, its invariants hold, level in the
 reservoir within two spacings of the experiment), noticed (the run stopped itself with a message, or says in run.json that an
 invariant does not hold), refused (before anything ran) or unstable (none of these). Writes stability_cmps.csv and stability_cmps.png.
 """
 import argparse
-import csv
 import os
 import pathlib
 import subprocess
@@ -19,6 +18,7 @@ import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import run_folder  # noqa: E402
+import stability_map  # noqa: E402
 
 HEIGHT = 0.3
 SCENE = """
@@ -78,22 +78,8 @@ def main():
             verdict, gained, rms = judge(options, scene, out / "run", over_height, factor)
             rows.append({"particles_over_height": over_height, "step_over_default": factor, "verdict": verdict, "energy_gained": gained, "level_rms_over_H": rms})
             print(f"H/l0 {over_height:3d}  step x {factor:.2f}  {verdict:9s} energy gained {gained:.3f}  level rms {rms:.3f} H", flush=True)
-    with open(options.out / "stability_cmps.csv", "w", newline="") as file:
-        writer = csv.DictWriter(file, list(rows[0]))
-        writer.writeheader()
-        writer.writerows(rows)
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as pyplot
-    figure, axis = pyplot.subplots(figsize=(5.5, 4))
-    for verdict, colour in VERDICTS.items():
-        shown = [row for row in rows if row["verdict"] == verdict]
-        axis.loglog([row["particles_over_height"] for row in shown], [row["step_over_default"] for row in shown], "s", color=colour, markersize=12, label=verdict)
-    axis.set(xlabel="particles over the column's height", ylabel="time step over the default one", title="cmps: dam break with impact")
-    axis.legend(fontsize=7)
-    figure.tight_layout()
-    figure.savefig(options.out / "stability_cmps.png", dpi=130)
-    print(options.out / "stability_cmps.png")
+    stability_map.write(rows, options.out / "stability_cmps", "particles_over_height", "step_over_default", VERDICTS,
+                        "particles over the column's height", "time step over the default one", "cmps: dam break with impact")
 
 
 if __name__ == "__main__":
