@@ -7,7 +7,7 @@ MISTAKES = [
     (("window = 0.5", "window = -0.5"), "window = -0.5", "time.window", "expected a number above 0 in s, got -0.5"),
     (("height = 0.06", "height = 0.06\nheigth = 0.06"), "heigth", "waves.heigth", "did you mean 'height'"),
     (('kind = "regular"', 'kind = "regluar"'), "regluar", "waves.kind", "regular"),
-    (("bed = [[0.0, -0.30], [12.0, -0.30]]", "bed = [[12.0, -0.30], [0.0, -0.30]]"), "bed =", "flume.bed", "increase"),
+    (("bed = [[0.0, -0.30], [15.0, -0.30]]", "bed = [[15.0, -0.30], [0.0, -0.30]]"), "bed =", "flume.bed", "increase"),
     (('"front" = 5.5', '"front" = true'), '"front"', "gauges.front", "got true"),
     (("crest_lowering = 0.04", "crest_lowering = 0.04\nparticle_spacing = 0"), "particle_spacing",
      "cmps.particle_spacing", "got 0"),
