@@ -132,11 +132,14 @@ Simulation build_simulation(const Scene& scene) {
 
 void add_breaking(Simulation& simulation, const Scene& scene) {
     if (scene.breaks_as_bores) {
-        auto bores = std::make_unique<HydrostaticBores>(scene.grid, scene.flow);
-        simulation.flow().set_bores(bores->bores());
+        auto bores = std::make_unique<HydrostaticBores>(scene.grid, simulation.bed(), scene.flow);
+        simulation.flow().set_bores(bores->bores().cells());
         simulation.add_effect(std::move(bores));
     } else {
-        simulation.add_effect(std::make_unique<EddyViscosity>(scene.grid, scene.flow, scene.breaking));
+        auto viscosity =
+            std::make_unique<EddyViscosity>(scene.grid, simulation.bed(), scene.flow, scene.breaking);
+        if (scene.breaking.becomes_bore) simulation.flow().set_bores(viscosity->bores().cells());
+        simulation.add_effect(std::move(viscosity));
     }
 }
 

@@ -6,6 +6,10 @@
 namespace boussinesq {
 namespace {
 
+/// Slope of a front, 30 degrees, from which it breaks (Tissier et al. 2012): steeper ones beside dry water
+/// are bores at any cell size. Without it the tip of a dam break ran the faster ahead the smaller the cells.
+constexpr double steepest_front = 0.577;
+
 constexpr double square(double x) {
     return x * x;
 }
@@ -19,12 +23,11 @@ void wet_slopes(Tile& tile, const FlowParameters& flow) {
 }
 
 /// Marks the cells whose flow is hydrostatic: where the fluxes are first order (near dry cells and over bed
-/// steps as high as the water), their neighbours, and bores (listed, or a
-/// surface that jumps by half the depth from cell to cell), bed steps and open ends. Elsewhere the slope is
-/// the very gradient the fluxes make, weighted with the depths at the faces: any other one would let the
-/// dispersive part feed on the difference over a rough bed.
-void shoreline_slopes(Tile& tile, const FlowParameters& flow, const unsigned char* hydrostatic,
-                      const unsigned char* bore) {
+/// steps as high as the water), their neighbours, where the surface jumps by half the depth from cell to
+/// cell, and the cells listed (bores, bed steps, open ends). Elsewhere the slope is the very gradient the
+/// fluxes make, weighted with the depths at the faces: any other one would let the dispersive part feed on
+/// the difference over a rough bed.
+void shoreline_slopes(Tile& tile, const FlowParameters& flow, const unsigned char* hydrostatic) {
     const double scale = 0.5 * gravity / flow.alpha / flow.spacing;
     for (std::size_t t = tile.begin() - 1; t < tile.end() + 1; ++t) {
         const bool rough =
@@ -34,8 +37,8 @@ void shoreline_slopes(Tile& tile, const FlowParameters& flow, const unsigned cha
         const double speed_jump = std::max(std::abs(tile.velocity[t] - tile.velocity[t - 1]),
                                            std::abs(tile.velocity[t + 1] - tile.velocity[t]));
         const double least = std::min(std::min(tile.depth[t - 1], tile.depth[t]), tile.depth[t + 1]);
-        const bool is_bore = jump > 0.5 * least || square(speed_jump) > 0.25 * gravity * least ||
-                             (bore != nullptr && bore[tile.first + t] != 0);
+        const bool is_bore = jump > std::min(0.5 * least, steepest_front * flow.spacing) ||
+                             square(speed_jump) > 0.25 * gravity * least;
         tile.held[t] = rough || is_bore || hydrostatic[tile.first + t] != 0 ? 1.0 : 0.0;
         const double e = tile.elevation[t];
         const double left = tile.elevation_minus[t] + tile.elevation_plus[t] - 2.0 * e;
@@ -142,9 +145,8 @@ void assemble_wet_dispersion(Tile& tile, const FlowParameters& flow, const unsig
     release_held(tile);
 }
 
-void assemble_shoreline_dispersion(Tile& tile, const FlowParameters& flow, const unsigned char* hydrostatic,
-                                   const unsigned char* bore) {
-    shoreline_slopes(tile, flow, hydrostatic, bore);
+void assemble_shoreline_dispersion(Tile& tile, const FlowParameters& flow, const unsigned char* hydrostatic) {
+    shoreline_slopes(tile, flow, hydrostatic);
     assemble<false, true>(tile, flow);
     release_held(tile);
 }

@@ -33,10 +33,8 @@ void assemble_wet_dispersion(Tile& tile, const FlowParameters& flow);
 /// The same where some cells are `hydrostatic` (padded, non-zero).
 void assemble_wet_dispersion(Tile& tile, const FlowParameters& flow, const unsigned char* hydrostatic);
 
-/// The same where cells may be dry, are `hydrostatic` or are listed in `bore` (both padded, non-zero); `bore`
-/// may be null.
-void assemble_shoreline_dispersion(Tile& tile, const FlowParameters& flow, const unsigned char* hydrostatic,
-                                   const unsigned char* bore);
+/// The same where cells may be dry besides.
+void assemble_shoreline_dispersion(Tile& tile, const FlowParameters& flow, const unsigned char* hydrostatic);
 
 /// Eliminated tridiagonal system of the whole flume: row i reads D_i = value_i - ratio_i D_(neighbour nearer
 /// the middle). Elimination runs from both ends towards the middle at once: two independent chains hide each

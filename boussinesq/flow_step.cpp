@@ -52,22 +52,29 @@ FlowStep::FlowStep(const Grid& grid, Bed bed, const FlowParameters& flow, FlowTe
 
 void FlowStep::mark_hydrostatic_cells() {
     const std::size_t first = ghost_cells, last = ghost_cells + grid_.cells;  // inner cells [first, last)
-    hydrostatic_.assign(grid_.padded(), 0);
+    fixed_hydrostatic_.assign(grid_.padded(), 0);
     // The fourth-order values of the dispersive part reach two cells to either side: none of them may look
     // across a step.
     for (std::size_t k = first; k <= last; ++k)
         if (std::abs(bed_.level(k) - bed_.level(k - 1)) > steepest_slope * grid_.spacing)
-            std::fill(&hydrostatic_[k - 2], &hydrostatic_[k + 2], 1);
+            std::fill(&fixed_hydrostatic_[k - 2], &fixed_hydrostatic_[k + 2], 1);
     // At an open end long waves leave by their own characteristics; nothing carries short ones out.
     constexpr std::size_t outlet = 4;
     if (flow_.offshore == End::open)
-        std::fill(hydrostatic_.begin(), hydrostatic_.begin() + first + outlet, 1);
+        std::fill(fixed_hydrostatic_.begin(), fixed_hydrostatic_.begin() + first + outlet, 1);
     if (flow_.shoreward == End::open)
-        std::fill(hydrostatic_.end() - ghost_cells - outlet, hydrostatic_.end(), 1);
+        std::fill(fixed_hydrostatic_.end() - ghost_cells - outlet, fixed_hydrostatic_.end(), 1);
+    hydrostatic_ = fixed_hydrostatic_;
+    tile_has_hydrostatic_.assign((grid_.cells + tile_cells - 1) / tile_cells, 0);
+    mark_hydrostatic_tiles();
+}
+
+void FlowStep::mark_hydrostatic_tiles() {
     for (std::size_t tile = 0; tile < grid_.cells; tile += tile_cells) {
         const std::size_t end = std::min(tile + tile_cells, grid_.cells) + 2 * ghost_cells;
-        tile_has_hydrostatic_.push_back(std::any_of(&hydrostatic_[tile], &hydrostatic_[0] + end,
-                                                    [](unsigned char mark) { return mark != 0; }));
+        unsigned char marks = 0;
+        for (std::size_t k = tile; k < end; ++k) marks |= hydrostatic_[k];
+        tile_has_hydrostatic_[tile / tile_cells] = marks;
     }
 }
 
@@ -110,6 +117,11 @@ Survey FlowStep::survey(const WaveState& state) const {
 }
 
 void FlowStep::advance(WaveState& state, double step) {
+    if (bores_ != nullptr) {
+        for (std::size_t k = 0; k < hydrostatic_.size(); ++k)
+            hydrostatic_[k] = fixed_hydrostatic_[k] | (*bores_)[k];
+        mark_hydrostatic_tiles();
+    }
     std::swap(before_, state);
     step_share_ = 1.0 / 6.0;
     stage(before_, 0.0, before_, 1.0, step, first_);
@@ -164,8 +176,7 @@ void FlowStep::sweep_tile(Tile& tile, const WaveState& start, double start_share
     ahead.fetch(in.depth);
     load_tile(tile, in.depth.data(), in.discharge.data(), bed_.face_level.data(), flow_, with_shoreline);
     ahead.fetch(in.discharge);
-    // Bores need to know which cells are first order, as dry cells do.
-    const bool wet = (!with_shoreline || is_deep(tile, flow_)) && bores_ == nullptr;
+    const bool wet = !with_shoreline || is_deep(tile, flow_);
     if (wet)
         wet_fluxes(tile, flow_);
     else
@@ -176,7 +187,7 @@ void FlowStep::sweep_tile(Tile& tile, const WaveState& start, double start_share
         ahead.fetch_to_write(system_.ratio);
         const unsigned char* hydrostatic = hydrostatic_.data();
         if (!wet)
-            assemble_shoreline_dispersion(tile, flow_, hydrostatic, bores_);
+            assemble_shoreline_dispersion(tile, flow_, hydrostatic);
         else if (tile_has_hydrostatic_[tile.first / tile_cells])
             assemble_wet_dispersion(tile, flow_, hydrostatic);
         else

@@ -47,8 +47,9 @@ class FlowStep {
         water_made_ = made, water_through_ends_ = through_ends;
     }
 
-    /// Cells (padded, non-zero) whose flow is hydrostatic because they break; null: none. Kept by the caller.
-    void set_bores(const unsigned char* bores) { bores_ = bores; }
+    /// Cells (padded, non-zero) whose flow is hydrostatic because they break, as they stand when a step
+    /// begins. Kept by the caller.
+    void set_bores(const std::vector<unsigned char>& bores) { bores_ = &bores; }
     const Bed& bed() const { return bed_; }
     FlowTerms terms() const { return terms_; }
     void set_terms(FlowTerms terms) { terms_ = terms; }
@@ -66,6 +67,7 @@ class FlowStep {
                     double stage_share, double step, WaveState& out);
     void fill_ghosts(WaveState& state) const;
     void mark_hydrostatic_cells();
+    void mark_hydrostatic_tiles();
 
     Grid grid_;
     Bed bed_;
@@ -74,9 +76,10 @@ class FlowStep {
     WaveState before_, first_, second_;
     DispersionSystem system_;
     std::unique_ptr<Tile> left_tile_, right_tile_;
-    std::vector<unsigned char> hydrostatic_;  ///< padded cells, non-zero: at bed steps and open ends
-    std::vector<bool> tile_has_hydrostatic_;  ///< tiles with such cells in them or beside them
-    const unsigned char* bores_ = nullptr;
+    std::vector<unsigned char> fixed_hydrostatic_;     ///< padded cells, non-zero: at bed steps and open ends
+    std::vector<unsigned char> hydrostatic_;           ///< these and the bores
+    std::vector<unsigned char> tile_has_hydrostatic_;  ///< tiles with such cells in them or beside them
+    const std::vector<unsigned char>* bores_ = nullptr;
     double water_made_ = 0, water_through_ends_ = 0;
     double step_share_ = 0;  ///< of the stage in hand in the whole step: 1/6, 1/6, 2/3
 };

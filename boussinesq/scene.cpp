@@ -230,9 +230,11 @@ Scene read_scene(const common::SceneFile& file) {
         section.number("friction", "- or s/m^(1/3)", "bed friction coefficient", Range::between(0, 10), 0.0);
     scene.friction_is_manning = section.choice("friction_law", "what boussinesq.friction is",
                                                {"quadratic", "manning"}, "quadratic") == "manning";
-    scene.breaks_as_bores =
-        section.choice("breaking", "how a breaking front loses energy", {"eddy_viscosity", "hydrostatic"},
-                       "eddy_viscosity") == "hydrostatic";
+    const std::string breaking =
+        section.choice("breaking", "how a breaking front loses energy",
+                       {"viscous_bore", "eddy_viscosity", "hydrostatic"}, "viscous_bore");
+    scene.breaks_as_bores = breaking == "hydrostatic";
+    scene.breaking.becomes_bore = breaking == "viscous_bore";
     scene.breaking.start =
         section.number("breaking_start", "-", "eta_t / sqrt(g h) at which a front begins to break",
                        Range::between(0.1, 2), scene.breaking.start);

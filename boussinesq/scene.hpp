@@ -50,7 +50,7 @@ struct Scene {
     bool friction_is_manning = false;
     bool has_breaking = false, has_friction = false;
     bool shoreline_is_automatic = true, breaking_is_automatic = true;  ///< may be switched on when needed
-    bool breaks_as_bores = false;  ///< hydrostatic bores in place of eddy viscosity
+    bool breaks_as_bores = false;  ///< hydrostatic bores from the beginning, without eddy viscosity
     EddyViscosityConstants breaking;
     std::vector<common::EffectRecord> effects;
     std::string sponge_note;  ///< the flume leaves the shoreward sponge less length than it should have

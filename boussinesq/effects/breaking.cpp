@@ -16,7 +16,43 @@ void note(BreakingRecord& record, double t, double x) {
 
 }  // namespace
 
-EddyViscosity::EddyViscosity(const Grid& grid, const FlowParameters& flow, EddyViscosityConstants constants)
+void BoreCells::clear() {
+    std::fill(cells_.begin(), cells_.end(), static_cast<unsigned char>(0));
+}
+
+void BoreCells::add(std::size_t k, double h) {
+    const auto width = static_cast<std::size_t>(std::ceil(h / spacing_));
+    const std::size_t first = ghost_cells + 1, last = cells_.size() - ghost_cells - 2;
+    const std::size_t from = k > first + width ? k - width : first, to = std::min(k + width, last);
+    std::fill(cells_.data() + from, cells_.data() + to + 1, static_cast<unsigned char>(1));
+}
+
+bool BoreCells::sustains(const WaveState& state, std::size_t k) const {
+    constexpr double least_depth_ratio = 1.4;  // (sqrt(1 + 8 Fr^2) - 1) / 2 at Fr = 1.3
+    const auto level = [&](std::size_t i) { return state.depth[i] + bed_.level(i); };
+    const std::size_t first = ghost_cells, last = cells_.size() - ghost_cells - 1;
+    const bool falls_shoreward = level(k - 1) > level(k + 1);
+    std::size_t low = k, high = k;
+    if (falls_shoreward) {
+        while (low < last && level(low + 1) < level(low)) ++low;
+        while (high > first && level(high - 1) > level(high)) --high;
+    } else {
+        while (low > first && level(low - 1) < level(low)) --low;
+        while (high < last && level(high + 1) > level(high)) ++high;
+    }
+    return level(high) - level(low) > (least_depth_ratio - 1.0) * state.depth[low];
+}
+
+void BoreCells::save(std::vector<double>& memory) const {
+    memory.insert(memory.end(), cells_.begin(), cells_.end());
+}
+
+void BoreCells::restore(const double* memory) {
+    for (std::size_t k = 0; k < cells_.size(); ++k) cells_[k] = memory[k] != 0.0 ? 1 : 0;
+}
+
+EddyViscosity::EddyViscosity(const Grid& grid, const Bed& bed, const FlowParameters& flow,
+                             EddyViscosityConstants constants)
     : grid_(grid),
       dry_depth_(flow.dry_depth),
       constants_(constants),
@@ -24,7 +60,8 @@ EddyViscosity::EddyViscosity(const Grid& grid, const FlowParameters& flow, EddyV
       new_age_(grid.padded(), 0.0),
       viscosity_(grid.padded(), 0.0),
       ratio_(grid.padded(), 0.0),
-      value_(grid.padded(), 0.0) {}
+      value_(grid.padded(), 0.0),
+      bores_(grid, bed) {}
 
 void EddyViscosity::find_fronts(const WaveState& state, double t, double step) {
     const double* h = state.depth.data();
@@ -32,6 +69,7 @@ void EddyViscosity::find_fronts(const WaveState& state, double t, double step) {
     const double half = 0.5 / grid_.spacing;
     const std::size_t first = ghost_cells + 1, last = ghost_cells + grid_.cells - 1;
     any_ = false;
+    if (constants_.becomes_bore) bores_.clear();
     for (std::size_t k = first; k < last; ++k) {
         const double rise = (q[k - 1] - q[k + 1]) * half;
         viscosity_[k] = 0.0;
@@ -49,6 +87,7 @@ void EddyViscosity::find_fronts(const WaveState& state, double t, double step) {
         viscosity_[k] =
             std::min(rise / threshold - 1.0, 1.0) * constants_.mixing * constants_.mixing * h[k] * rise;
         if (age == 0.0) note(record_, t, grid_.centre(k - ghost_cells));
+        if (constants_.becomes_bore && share == 1.0 && bores_.sustains(state, k)) bores_.add(k, h[k]);
         any_ = true;
     }
     std::swap(age_, new_age_);
@@ -95,53 +134,50 @@ void EddyViscosity::apply(WaveState& state, double t, double step) {
 std::vector<double> EddyViscosity::memory() const {
     std::vector<double> values{record_.first_time, record_.first_place, record_.most_offshore};
     values.insert(values.end(), age_.begin(), age_.end());
+    bores_.save(values);
     return values;
 }
 
 void EddyViscosity::recall(const std::vector<double>& values) {
     record_ = {.first_time = values.at(0), .first_place = values.at(1), .most_offshore = values.at(2)};
-    age_.assign(values.begin() + 3, values.end());
+    std::copy_n(values.begin() + 3, age_.size(), age_.begin());
+    bores_.restore(values.data() + 3 + age_.size());
 }
 
-HydrostaticBores::HydrostaticBores(const Grid& grid, const FlowParameters& flow)
-    : grid_(grid), dry_depth_(flow.dry_depth), bores_(grid.padded(), 0), fronts_(grid.padded(), 0) {}
+HydrostaticBores::HydrostaticBores(const Grid& grid, const Bed& bed, const FlowParameters& flow)
+    : grid_(grid), dry_depth_(flow.dry_depth), bores_(grid, bed) {
+    fronts_.reserve(grid.cells);
+}
 
 void HydrostaticBores::apply(WaveState& state, double t, double) {
     const double* h = state.depth.data();
     const double* q = state.discharge.data();
     const double half = 0.5 / grid_.spacing;
-    std::fill(fronts_.begin(), fronts_.end(), static_cast<unsigned char>(0));
+    fronts_.clear();
     const std::size_t first = ghost_cells + 1, last = ghost_cells + grid_.cells - 1;
     for (std::size_t k = first; k < last; ++k) {
         const double rise = (q[k - 1] - q[k + 1]) * half;
         if (rise <= 0.0 || h[k] <= 10.0 * dry_depth_) continue;
         const double speed = std::sqrt(gravity * h[k]);
-        const bool is_old = bores_[k - 1] != 0 || bores_[k] != 0 || bores_[k + 1] != 0;
-        if (rise > (is_old ? 0.3 : 0.6) * speed) {
-            fronts_[k] = 1;
+        const bool is_old = bores_.contains(k - 1) || bores_.contains(k) || bores_.contains(k + 1);
+        if (rise > (is_old ? 0.3 : 0.6) * speed && (!is_old || bores_.sustains(state, k))) {
+            fronts_.push_back(k);
             if (!is_old) note(record_, t, grid_.centre(k - ghost_cells));
         }
     }
-    // The front's whole width: a depth to both sides.
-    std::fill(bores_.begin(), bores_.end(), static_cast<unsigned char>(0));
-    for (std::size_t k = first; k < last; ++k) {
-        if (fronts_[k] == 0) continue;
-        const auto width = static_cast<std::size_t>(std::ceil(h[k] / grid_.spacing));
-        const std::size_t from = k > first + width ? k - width : first, to = std::min(k + width, last - 1);
-        std::fill(bores_.begin() + static_cast<std::ptrdiff_t>(from),
-                  bores_.begin() + static_cast<std::ptrdiff_t>(to) + 1, static_cast<unsigned char>(1));
-    }
+    bores_.clear();
+    for (const std::size_t k : fronts_) bores_.add(k, h[k]);
 }
 
 std::vector<double> HydrostaticBores::memory() const {
     std::vector<double> values{record_.first_time, record_.first_place, record_.most_offshore};
-    values.insert(values.end(), bores_.begin(), bores_.end());
+    bores_.save(values);
     return values;
 }
 
 void HydrostaticBores::recall(const std::vector<double>& values) {
     record_ = {.first_time = values.at(0), .first_place = values.at(1), .most_offshore = values.at(2)};
-    for (std::size_t k = 0; k < bores_.size(); ++k) bores_[k] = values.at(3 + k) != 0.0 ? 1 : 0;
+    bores_.restore(values.data() + 3);
 }
 
 }  // namespace boussinesq
