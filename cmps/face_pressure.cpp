@@ -8,12 +8,13 @@ namespace cmps {
 FacePressure::FacePressure(const Particles& particles, const Solid& solid, const Settings& settings)
     : spacing_(settings.spacing) {
     const double l0 = spacing_, density = settings.pressure.density;
+    const std::size_t first = particles.first_wall();
     for (const SurfaceSegment& segment : solid.surface()) {
         const double dx = segment.to[0] - segment.from[0], dz = segment.to[1] - segment.from[1];
         const double length = std::hypot(dx, dz), tx = dx / length, tz = dz / length;
         const Point& normal = segment.normal;
         std::vector<std::size_t> behind;
-        for (std::size_t j = particles.first_wall(); j < particles.first_fluid(); ++j) {
+        for (std::size_t j = first; j < particles.first_fluid(); ++j) {
             const double ex = particles.x[j] - segment.from[0], ez = particles.z[j] - segment.from[1];
             const double across = ex * normal[0] + ez * normal[1], along = ex * tx + ez * tz;
             if (particles.body[j] != body_moving_wall && across < 0 && across > -0.9 * l0 && along > -l0 &&
@@ -29,11 +30,12 @@ FacePressure::FacePressure(const Particles& particles, const Solid& solid, const
                         .body = segment.body,
                         .supports = {}};
             for (const std::size_t j : behind) {
-                const double ex = piece.at[0] - particles.x[j], ez = piece.at[1] - particles.z[j];
+                const double ex = piece.at[0] - particles.x[j] - 0.5 * l0 * particles.normal_x[j],
+                             ez = piece.at[1] - particles.z[j] - 0.5 * l0 * particles.normal_z[j];
                 const double weight = 1.0 - std::abs(ex * tx + ez * tz) / (1.2 * l0);
                 if (weight > 0)
                     piece.supports.push_back(
-                        {.particle = j,
+                        {.wall = j - first,
                          .weight = weight,
                          .carried = density * (settings.gravity_x * ex + settings.gravity_z * ez)});
             }
@@ -42,27 +44,27 @@ FacePressure::FacePressure(const Particles& particles, const Solid& solid, const
     }
 }
 
-double FacePressure::pressure(const Particles& particles, const Piece& piece) {
+double FacePressure::pressure(const std::vector<double>& at_walls, const Piece& piece) {
     double sum = 0, weights = 0;
     for (const Support& support : piece.supports) {
-        const double p = particles.pressure[support.particle];
+        const double p = at_walls[support.wall];
         weights += support.weight;
         if (p > 0) sum += support.weight * std::max(0.0, p + support.carried);
     }
     return sum / weights;
 }
 
-std::array<double, 2> FacePressure::force_on(const Particles& particles, std::int32_t body) const {
+std::array<double, 2> FacePressure::force_on(const std::vector<double>& at_walls, std::int32_t body) const {
     std::array<double, 2> force = {0, 0};
     for (const Piece& piece : pieces_) {
         if (piece.body != body) continue;
-        const double p = pressure(particles, piece) * piece.length;
+        const double p = pressure(at_walls, piece) * piece.length;
         force[0] -= p * piece.normal[0], force[1] -= p * piece.normal[1];
     }
     return force;
 }
 
-std::optional<double> FacePressure::mean_around(const Particles& particles, double x, double z,
+std::optional<double> FacePressure::mean_around(const std::vector<double>& at_walls, double x, double z,
                                                 double diameter) const {
     const double reach = std::max(0.5 * diameter, spacing_);
     double sum = 0, weights = 0;
@@ -71,7 +73,7 @@ std::optional<double> FacePressure::mean_around(const Particles& particles, doub
         // on the gauge's own face: not one that stands across or behind
         if (std::abs(ex * piece.normal[0] + ez * piece.normal[1]) > 0.1 * spacing_) continue;
         const double weight = 1.0 - std::hypot(ex, ez) / reach;
-        if (weight > 0) sum += weight * pressure(particles, piece), weights += weight;
+        if (weight > 0) sum += weight * pressure(at_walls, piece), weights += weight;
     }
     if (weights == 0) return {};
     return sum / weights;

@@ -1,8 +1,8 @@
 /// Pressure on the solid's faces, and the force it makes on bodies.
 ///
-/// Wall particles stand half a spacing behind their face. Along a face the pressure is the mean of those
-/// around, carried to the face by the hydrostatic gradient, as a wall at rest asks for (dp/dn = rho g . n);
-/// dry ones read zero. Integrated along every exposed face, corners included, it gives Archimedes' lift.
+/// Every wall particle has a pressure on the face half a spacing before it (NearField::face_pressure). Along
+/// a face the pressure is the mean of those around, carried along by the hydrostatic gradient; dry ones read
+/// zero. Integrated along every exposed face, corners included, it gives Archimedes' lift.
 #pragma once
 
 #include <array>
@@ -21,16 +21,17 @@ class FacePressure {
     /// Looks up, once, which wall particles stand behind which piece of face.
     FacePressure(const Particles& particles, const Solid& solid, const Settings& settings);
 
-    /// Force on a body, N per m of width.
-    std::array<double, 2> force_on(const Particles& particles, std::int32_t body) const;
+    /// Force on a body, N per m of width. `at_walls`: NearField::face_pressure.
+    std::array<double, 2> force_on(const std::vector<double>& at_walls, std::int32_t body) const;
     /// Mean over the faces within `diameter`/2 (at least a spacing) of (x, z), Pa; nothing where there is no
     /// face.
-    std::optional<double> mean_around(const Particles& particles, double x, double z, double diameter) const;
+    std::optional<double> mean_around(const std::vector<double>& at_walls, double x, double z,
+                                      double diameter) const;
 
  private:
-    /// A wall particle behind a piece of face, and the water's weight between them, Pa.
+    /// A wall particle behind a piece of face, and the water's weight between their places on it, Pa.
     struct Support {
-        std::size_t particle;
+        std::size_t wall;
         double weight, carried;
     };
     struct Piece {
@@ -39,7 +40,7 @@ class FacePressure {
         std::int32_t body;
         std::vector<Support> supports;
     };
-    static double pressure(const Particles& particles, const Piece& piece);
+    static double pressure(const std::vector<double>& at_walls, const Piece& piece);
     double spacing_;
     std::vector<Piece> pieces_;
 };

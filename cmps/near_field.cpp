@@ -74,9 +74,10 @@ void NearField::advance(double time, double step) {
     run_effects(&Effect::accelerate, time);
     solve_pressure(step);
     apply_gradient(step);
+    find_face_pressure();
     filter_velocity(step);
     if (is_midpoint) drift(0.5 * step);
-    shift(shifting_share(step), true);
+    shift(share_of_step(step), true);
     run_effects(&Effect::end_step, time + step);
     check(time, step);
     ++counts.steps;
@@ -107,7 +108,7 @@ void NearField::update_geometry() {
 void NearField::solve_pressure(double step) {
     {
         const common::PhaseTimer timer(seconds.assembly);
-        equation.assemble(particles, search.lists(), interactions, place, step);
+        equation.assemble(particles, search.lists(), interactions, place, step, step / share_of_step(step));
     }
     const common::PhaseTimer timer(seconds.solve);
     const std::size_t first = particles.first_wall(), unknowns = equation.row_of.size();
@@ -166,6 +167,33 @@ void NearField::apply_gradient(double step) {
     largest_acceleration_ = std::sqrt(strongest);
 }
 
+/// The water's own pressure carried on to the face with the gradient that has just moved it: the force that
+/// stops the water and the pressure that is reported are then the same. The wall particles' unknowns are not:
+/// while little water stands before them, they are larger than what the water feels.
+void NearField::find_face_pressure() {
+    face_pressure.assign(particles.walls, 0.0);
+    const NeighbourLists& lists = search.lists();
+    const std::size_t first_fluid = particles.first_fluid();
+    for (std::size_t row = 0; row < particles.walls; ++row) {
+        if (place[row] == Place::dry) continue;
+        const std::size_t j = particles.first_wall() + row;
+        const double face_x = 0.5 * settings.spacing * particles.normal_x[j],
+                     face_z = 0.5 * settings.spacing * particles.normal_z[j];
+        double sum = 0, weights = 0;
+        for (std::size_t k = lists.start[row + 1]; k-- > lists.start[row];) {  // the fluid stands last
+            const auto i = static_cast<std::size_t>(lists.neighbour[k]);
+            if (i < first_fluid) break;
+            const std::size_t f = i - first_fluid;
+            const auto weight = static_cast<double>(interactions.weight[k]);
+            sum += weight * (particles.pressure[i] +
+                             gradient_x_[f] * (face_x - static_cast<double>(interactions.dx[k])) +
+                             gradient_z_[f] * (face_z - static_cast<double>(interactions.dz[k])));
+            weights += weight;
+        }
+        if (weights > 0) face_pressure[row] = std::max(0.0, sum / weights);
+    }
+}
+
 /// Dynamic stabilisation, collisions and wall contact, for pairs that the pressure has left too near each
 /// other.
 ///
@@ -221,7 +249,8 @@ void NearField::push_apart(double step) {
         particles.u[first + f] += change_u_[f], particles.w[first + f] += change_w_[f];
 }
 
-double NearField::shifting_share(double step) const {
+/// Of what shifting and the density term do in one step of the length that speed and celerity ask for.
+double NearField::share_of_step(double step) const {
     const double g = std::hypot(settings.gravity_x, settings.gravity_z), l0 = settings.spacing;
     const double celerity = std::sqrt(g * std::max(settings.depth, l0));
     return std::min(1.0, step * std::max(celerity / 0.4, largest_speed_ / 0.2) / l0);
@@ -276,9 +305,18 @@ void NearField::settle(int sweeps, double surface_level) {
         update_geometry();
         shift(1.0, false);
     }
-    for (std::size_t i = particles.first_wall(); i < particles.size(); ++i)
-        particles.pressure[i] =
-            std::max(0.0, -settings.gravity_z * settings.pressure.density * (surface_level - particles.z[i]));
+    const std::size_t first = particles.first_wall();
+    const auto still_water = [&](double z) {
+        return std::max(0.0, -settings.gravity_z * settings.pressure.density * (surface_level - z));
+    };
+    face_pressure.assign(particles.walls, 0.0);
+    for (std::size_t i = first; i < particles.size(); ++i) {
+        if (place[i - first] == Place::dry) continue;
+        particles.pressure[i] = still_water(particles.z[i]);
+        if (i < particles.first_fluid())
+            face_pressure[i - first] =
+                still_water(particles.z[i] + 0.5 * settings.spacing * particles.normal_z[i]);
+    }
 }
 
 void NearField::check(double time, double step) const {

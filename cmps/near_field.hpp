@@ -69,6 +69,7 @@ class NearField {
     Interactions interactions;  ///< at the positions of the last pressure solve
     std::vector<Place> place;   ///< per carrier row
     PressureEquation equation;
+    std::vector<double> face_pressure;  ///< Pa, on the face before each wall particle, as the water says
     PhaseSeconds seconds;
     StepCounts counts;
 
@@ -77,9 +78,10 @@ class NearField {
     void update_geometry();
     void solve_pressure(double step);
     void apply_gradient(double step);
+    void find_face_pressure();
     void push_apart(double step);
     void filter_velocity(double step);
-    double shifting_share(double step) const;
+    double share_of_step(double step) const;
     void shift(double share, bool carries_velocity);
     void check(double time, double step) const;
 

@@ -33,7 +33,45 @@ double PressureEquation::divergence(const Particles& particles, const NeighbourL
 #pragma omp simd reduction(+ : sum)
     for (std::size_t k = lists.start[row]; k < lists.start[row + 1]; ++k)
         sum -= slope[k] * (dx[k] * (u[neighbour[k]] - ui) + dz[k] * (w[neighbour[k]] - wi));
+    sum += slip(particles, lists, interactions, row);
     return sum / (lattice_.number_density * lattice_.divergence_scale);
+}
+
+/// What water sliding along walls has added to the sum of `divergence`, with the sign that takes it away.
+///
+/// A wall is smooth: only how fast water comes at it counts. The tangential part of a pair's velocity cancels
+/// in the mean over the wall's particles; what does not cancel is a roughness of the particles' spacing, that
+/// brakes and lifts a thin tongue.
+double PressureEquation::slip(const Particles& particles, const NeighbourLists& lists,
+                              const Interactions& interactions, std::size_t row) const {
+    const std::size_t i = particles.first_wall() + row, first_fluid = particles.first_fluid();
+    const std::size_t begin = lists.start[row], end = lists.start[row + 1];
+    double sum = 0;
+    if (i >= first_fluid) {  // boundary neighbours stand first
+        for (std::size_t k = begin; k < end; ++k) {
+            const auto j = static_cast<std::size_t>(lists.neighbour[k]);
+            if (j >= first_fluid) break;
+            const double tx = -particles.normal_z[j], tz = particles.normal_x[j];
+            const double along =
+                tx * (particles.u[j] - particles.u[i]) + tz * (particles.w[j] - particles.w[i]);
+            sum += static_cast<double>(interactions.slope[k]) * along *
+                   (tx * interactions.dx[k] + tz * interactions.dz[k]);
+        }
+        return sum;
+    }
+    // a wall's own particle goes along with the mean of the water before it
+    const double tx = -particles.normal_z[i], tz = particles.normal_x[i];
+    double mean = 0, weights = 0, lever = 0;
+    for (std::size_t k = end; k-- > begin;) {
+        const auto j = static_cast<std::size_t>(lists.neighbour[k]);
+        if (j < first_fluid) break;
+        const double weight = interactions.weight[k];
+        mean += weight * (tx * (particles.u[j] - particles.u[i]) + tz * (particles.w[j] - particles.w[i]));
+        weights += weight;
+        lever +=
+            static_cast<double>(interactions.slope[k]) * (tx * interactions.dx[k] + tz * interactions.dz[k]);
+    }
+    return weights > 0 ? mean / weights * lever : 0.0;
 }
 
 double PressureEquation::surface_share(const Interactions& interactions, std::size_t row) const {
@@ -51,7 +89,7 @@ double PressureEquation::missing_kernel(const Interactions& interactions, std::s
 
 void PressureEquation::assemble(const Particles& particles, const NeighbourLists& lists,
                                 const Interactions& interactions, const std::vector<Place>& place,
-                                double time_step) {
+                                double time_step, double correction_step) {
     const std::size_t first = particles.first_wall(), rows = particles.size() - first;
     unknown_of.resize(rows);
     row_of.clear();
@@ -112,7 +150,7 @@ void PressureEquation::assemble(const Particles& particles, const NeighbourLists
         // At the surface the kernel is cut short and the volume free to change: only p = 0 holds there. A
         // wall, though, answers to water that comes at it before the kernel between them has filled.
         const double inner = is_smooth ? 1 - surface_share(interactions, row) : 1.0;
-        double source = inner * settings_.density_weight / time_step * density_error[row];
+        double source = inner * settings_.density_weight / correction_step * density_error[row];
         if (settings_.source != Source::density) {
             const double convergence = -divergence(particles, lists, interactions, row);
             if (settings_.source == Source::error_compensating) {

@@ -1,6 +1,6 @@
 /// Assembly of the pressure equation
 ///
-///     sum_j 4/(lambda n0) w (p_i - p_j) = rho/dt [ -div u*_i + gamma/dt (n_i - n0)/n0 ]
+///     sum_j 4/(lambda n0) w (p_i - p_j) = rho/dt [ -div u*_i + gamma/dt' (n_i - n0)/n0 ]
 ///
 /// as a symmetric matrix A_ij = -c_ij, c_ij = w_ij (or the higher-order coefficient), over the carriers whose
 /// pressure is unknown; p = 0 at the surface; dummies are left out (Neumann).
@@ -53,9 +53,10 @@ class PressureEquation {
                 .curvature = settings_.laplacian == Laplacian::higher_order};
     }
 
-    /// `particles` hold the predicted velocity u*.
+    /// `particles` hold the predicted velocity u*. `correction_step`: the step of the density term, s; longer
+    /// than `time_step` where that is shorter than the flow asks for, so that the term is a rate.
     void assemble(const Particles& particles, const NeighbourLists& lists, const Interactions& interactions,
-                  const std::vector<Place>& place, double time_step);
+                  const std::vector<Place>& place, double time_step, double correction_step);
 
     SparseMatrix matrix;
     std::vector<double> right_hand_side;
@@ -66,6 +67,8 @@ class PressureEquation {
  private:
     double divergence(const Particles& particles, const NeighbourLists& lists,
                       const Interactions& interactions, std::size_t row) const;
+    double slip(const Particles& particles, const NeighbourLists& lists, const Interactions& interactions,
+                std::size_t row) const;
     /// 0 inside, 1 at the surface, by the asymmetry of the neighbourhood.
     double surface_share(const Interactions& interactions, std::size_t row) const;
     /// What the mirrored water above the surface adds to the diagonal.

@@ -32,6 +32,7 @@ void save(const NearField& field, common::DataFile& state) {
     });
     data["/particles/identity"] = common::integer32("-", {n}, particles.identity);
     data["/particles/body"] = common::integer32("-", {n}, particles.body);
+    data["/walls/face_pressure"] = common::real64("Pa", {particles.walls}, field.face_pressure);
     const std::size_t listed = field.search.built_x().size();
     data["/lists/x"] = common::real64("m", {listed}, field.search.built_x());
     data["/lists/z"] = common::real64("m", {listed}, field.search.built_z());
@@ -58,6 +59,7 @@ void restore(NearField& field, const common::DataFile& state) {
     });
     particles.identity = state.at("/particles/identity").integers();
     particles.body = state.at("/particles/body").integers();
+    field.face_pressure = state.at("/walls/face_pressure").doubles();
     field.search.restore(particles, state.at("/lists/x").doubles(), state.at("/lists/z").doubles());
     field.restore_step_state(state.at("/step").doubles());
     const auto& counts = state.at("/counts").words();

@@ -71,10 +71,10 @@ void WindowOutput::record(double time, const NearField& field, std::size_t overt
     if (is_due(particle_series_, time)) record_particles(particles);
     if (is_due(force_series_, time))
         for (std::size_t k = 0; k < scene_.structure.size(); ++k)
-            for (const double component : faces_->force_on(particles, static_cast<std::int32_t>(k)))
+            for (const double component : faces_->force_on(field.face_pressure, static_cast<std::int32_t>(k)))
                 force_series_.values.push_back(static_cast<float>(component));
     for (std::size_t g = 0; g < gauges_.size(); ++g)
-        if (is_due(gauge_series_[g], time)) record_gauge(gauges_[g], particles, overtopped, gauge_series_[g]);
+        if (is_due(gauge_series_[g], time)) record_gauge(gauges_[g], field, overtopped, gauge_series_[g]);
 }
 
 void WindowOutput::record_flow(const NearField& field) {
@@ -109,8 +109,9 @@ void WindowOutput::record_particles(const Particles& particles) {
     }
 }
 
-void WindowOutput::record_gauge(const common::Gauge& gauge, const Particles& particles,
-                                std::size_t overtopped, Series& series) {
+void WindowOutput::record_gauge(const common::Gauge& gauge, const NearField& field, std::size_t overtopped,
+                                Series& series) {
+    const Particles& particles = field.particles;
     const double l0 = scene_.settings.spacing;
     switch (gauge.kind) {
         case common::Gauge::Kind::surface:
@@ -118,7 +119,7 @@ void WindowOutput::record_gauge(const common::Gauge& gauge, const Particles& par
             break;
         case common::Gauge::Kind::pressure:
             series.values.push_back(static_cast<float>(
-                faces_->mean_around(particles, gauge.x, gauge.z, gauge.diameter)
+                faces_->mean_around(field.face_pressure, gauge.x, gauge.z, gauge.diameter)
                     .value_or(pressure_in_water(particles, l0, gauge.x, gauge.z, gauge.diameter))));
             break;
         case common::Gauge::Kind::velocity:

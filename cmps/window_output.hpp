@@ -40,7 +40,7 @@ class WindowOutput {
  private:
     void record_flow(const NearField& field);
     void record_particles(const Particles& particles);
-    void record_gauge(const common::Gauge& gauge, const Particles& particles, std::size_t overtopped,
+    void record_gauge(const common::Gauge& gauge, const NearField& field, std::size_t overtopped,
                       Series& series);
     template <class Visit>
     void for_each_series(const Visit& visit);

@@ -103,7 +103,7 @@ void assembly(benchmark::State& state) {
     const auto field = swinging_tank(state.range(0));
     for (auto _ : state)
         field->equation.assemble(field->particles, field->search.lists(), field->interactions, field->place,
-                                 1e-3);
+                                 1e-3, 1e-3);
     report(state, *field);
 }
 

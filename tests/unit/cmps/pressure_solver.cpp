@@ -20,7 +20,8 @@ struct System {
         for (std::size_t i = field.particles.first_fluid(); i < field.particles.size(); ++i)
             field.particles.u[i] = speed(random), field.particles.w[i] = speed(random);
         field.settle(5, 0.2);
-        field.equation.assemble(field.particles, field.search.lists(), field.interactions, field.place, 1e-3);
+        field.equation.assemble(field.particles, field.search.lists(), field.interactions, field.place, 1e-3,
+                                1e-3);
     }
 };
 
