@@ -53,7 +53,7 @@ PackedPoses poses_of(const Blocks& blocks) {
     return {blocks.position, blocks.orientation};
 }
 
-void take_over(Simulation& simulation, const PackedPoses& packed, const std::vector<Pair>& contacts) {
+void take_over(Simulation& simulation, const PackedPoses& packed, const std::vector<TouchingPair>& contacts) {
     for (std::size_t i = 0; i < simulation.blocks.size(); ++i)
         simulation.blocks.place(i, packed.position[i], packed.orientation[i], Vector::Zero(), Vector::Zero());
     Simulation::Memory memory = simulation.memory();

@@ -20,7 +20,7 @@ std::unique_ptr<Simulation> build_simulation(const Scene& scene, bool with_water
 void settle(Simulation& simulation, const PackingRules& rules, const std::function<void(double)>& progress);
 
 /// Takes up settled poses and their contacts, at rest.
-void take_over(Simulation& simulation, const PackedPoses& packed, const std::vector<Pair>& contacts);
+void take_over(Simulation& simulation, const PackedPoses& packed, const std::vector<TouchingPair>& contacts);
 
 /// Mounts the layout. Wires that `earlier` (may be null) already has between the same spheres keep rest
 /// length and damage, unless one of their blocks was put back; new ones take the distance at packing, or the

@@ -40,7 +40,7 @@ StepWork work_of_a_step(const Scene& scene) {
         spent += seconds_of([&] { simulation->advance(simulation->time() + 0.01); });
     StepWork work;
     work.wires = simulation->wires.size();
-    for (const auto& pair : simulation->pair_list().pairs()) work.contacts += pair.contacts.size();
+    work.contacts = simulation->pair_list().contact_count();
     // A scene whose blocks all fall asleep at once has no steps to time.
     work.seconds = spent / std::max(1.0, static_cast<double>(simulation->steps() - before));
     return work;
@@ -53,6 +53,7 @@ void check(const common::StageCommand& command, const common::SceneFile& file, c
         fmt::print("{}", file.reference());
         return;
     }
+    require_input(command, scene);
     std::size_t spheres = 0, moving = 0;
     for (std::size_t i = 0; i < scene.placed.size(); ++i) {
         spheres += scene.placed.shape_of(i).spheres.size();

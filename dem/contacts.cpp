@@ -51,7 +51,7 @@ void find_touches(const Blocks& blocks, const Surroundings& surroundings, const 
         const Rotation& other_turn = blocks.rotation[pair.partner];
         const Vector offset = partner_from_block(blocks, surroundings, list, pair);
         const double reach = radius + 0.5 * other.diameter;
-        for (const auto& candidate : pair.candidates) {
+        for (const auto& candidate : list.candidates(pair)) {
             const Vector arm = turn * shape.spheres[candidate.a];
             const Vector between = offset + other_turn * other.spheres[candidate.b] - arm;
             const double squared = between.squaredNorm();
@@ -62,17 +62,19 @@ void find_touches(const Blocks& blocks, const Surroundings& surroundings, const 
         const double reach = radius + partner_radius;
         Vector origin = centre;
         origin.y() -= shift;
-        for (std::size_t k = 0; k < pair.candidates.size(); ++k) {
-            const Candidate& candidate = pair.candidates[k];
+        const auto candidates = list.candidates(pair);
+        const auto centres = list.centres(pair);
+        for (std::size_t k = 0; k < candidates.size(); ++k) {
+            const Candidate& candidate = candidates[k];
             const Vector arm = turn * shape.spheres[candidate.a];
-            const Vector between = pair.centres[k] - origin - arm;
+            const Vector between = centres[k] - origin - arm;
             const double squared = between.squaredNorm();
             if (squared < reach * reach) add(candidate, arm, between, squared, reach, partner_radius);
         }
     } else {
         const Plane& plane = list.plane(pair.partner);
         const double height = (centre - plane.point).dot(plane.normal);
-        for (const auto& candidate : pair.candidates) {
+        for (const auto& candidate : list.candidates(pair)) {
             const Vector arm = turn * shape.spheres[candidate.a];
             const double overlap = radius - height - arm.dot(plane.normal);
             if (overlap <= 0) continue;
@@ -105,25 +107,6 @@ double reduced_mass(const Blocks& blocks, const PairList& list, const Pair& pair
     return 1 / inverse;
 }
 
-/// Asks for the memory of the pairs to come. Thousands of pairs do not stay in the near caches, and each is a
-/// few pieces of memory: waiting for them one by one took longer than the arithmetic.
-void fetch_ahead(const PairList& list, std::span<const std::uint32_t> active, std::size_t k) {
-    constexpr std::size_t far = 8, near = 4;
-    constexpr std::size_t line = 64;
-    if (k + far >= active.size()) return;
-    const auto* pair = reinterpret_cast<const char*>(&list.pairs()[active[k + far]]);
-    for (std::size_t byte = 0; byte < sizeof(Pair) - sizeof(PairForces); byte += line)
-        __builtin_prefetch(pair + byte);
-    const Pair& next = list.pairs()[active[k + near]];
-    const auto* centres = reinterpret_cast<const char*>(next.centres.data());
-    for (std::size_t byte = 0; byte < next.centres.size() * sizeof(Vector); byte += line)
-        __builtin_prefetch(centres + byte);
-    __builtin_prefetch(next.candidates.data());
-    const auto* contacts = reinterpret_cast<const char*>(next.contacts.data());
-    for (std::size_t byte = 0; byte < next.contacts.size() * sizeof(Contact); byte += line)
-        __builtin_prefetch(contacts + byte);
-}
-
 template <class Law, class Friction>
 class PairwiseContacts final : public ContactModel {
  public:
@@ -136,8 +119,11 @@ class PairwiseContacts final : public ContactModel {
         constexpr std::size_t serial_below =
             2000;  // pairs; waking threads costs as much as a few hundred of them
         common::parallel_for(active.size(), serial_below, [&](std::size_t k) {
-            fetch_ahead(list, active, k);
-            evaluate_pair(blocks, surroundings, list, list.pairs()[active[k]], dt, forces[k]);
+            // Thousands of pairs do not stay in the near caches: waiting for them one by one took longer than
+            // the arithmetic.
+            constexpr std::size_t ahead = 4;
+            if (k + ahead < active.size()) list.fetch(active[k + ahead]);
+            evaluate_pair(blocks, surroundings, list, active[k], dt, forces[k]);
         });
     }
 
@@ -151,7 +137,7 @@ class PairwiseContacts final : public ContactModel {
             const double radius = reduced_radius(blocks, surroundings, list, pair);
             for (const auto& touch : touches)
                 energy += law_.energy(law_.stiffness(radius, touch.overlap), touch.overlap);
-            for (const auto& contact : pair.contacts)
+            for (const auto& contact : list.contacts(pair))
                 energy += friction_.energy(contact.spring, contact.stiffness);
         }
         return energy;
@@ -169,14 +155,15 @@ class PairwiseContacts final : public ContactModel {
         return 2 * damping_ratio_ * std::sqrt(mass / static_cast<double>(count));
     }
 
-    void evaluate_pair(const Blocks& blocks, const Surroundings& surroundings, const PairList& list,
-                       Pair& pair, double dt, PairForces& forces) const {
+    void evaluate_pair(const Blocks& blocks, const Surroundings& surroundings, PairList& list,
+                       std::size_t index, double dt, PairForces& forces) const {
+        const Pair& pair = list.pairs()[index];
         thread_local std::vector<Touch> touches;
         thread_local std::vector<Contact> now;
         touches.clear();
         find_touches(blocks, surroundings, list, pair, touches);
         if (touches.empty()) {
-            pair.contacts.clear();
+            list.set_contacts(index, {});
             return;
         }
         const bool partner_is_block = list.is_block(pair.partner);
@@ -195,15 +182,16 @@ class PairwiseContacts final : public ContactModel {
         double dissipated = 0, largest_overlap = 0;
 
         now.clear();
-        auto earlier = pair.contacts.begin();
+        const auto before = list.contacts(pair);
+        auto earlier = before.begin();
         for (const auto& touch : touches) {
             const double stiffness = law_.stiffness(radius, touch.overlap);
             Contact contact{touch.a, touch.b, stiffness, Vector::Zero()};
             double stiffness_before = stiffness;
-            while (earlier != pair.contacts.end() &&
+            while (earlier != before.end() &&
                    (earlier->a < touch.a || (earlier->a == touch.a && earlier->b < touch.b)))
                 ++earlier;
-            if (earlier != pair.contacts.end() && earlier->a == touch.a && earlier->b == touch.b) {
+            if (earlier != before.end() && earlier->a == touch.a && earlier->b == touch.b) {
                 contact.spring = earlier->spring;
                 stiffness_before = earlier->stiffness;
             }
@@ -235,7 +223,7 @@ class PairwiseContacts final : public ContactModel {
                   .damping_torque = damping_torque,
                   .dissipated = dissipated,
                   .largest_overlap = largest_overlap};
-        pair.contacts.assign(now.begin(), now.end());  // in place: memory stays where the next pairs' lies
+        list.set_contacts(index, now);
     }
 
     Law law_;

@@ -31,9 +31,13 @@ int main(int argc, char** argv) {
         }
         const dem::Scene scene = dem::read_scene(file, layout ? &*layout : nullptr);
         const common::Section wires = (layout ? *layout : file).section("wires");
-        if (command.verb == Verb::run && command.from.empty() && wires.has("put_back"))
-            wires.problem("put_back",
-                          "puts blocks of an earlier run back to where they were packed; it needs --from");
+        if (command.from.empty() && wires.has("put_back"))
+            wires.problem(
+                "put_back",
+                command.verb == Verb::pack
+                    ? "puts blocks of an earlier run back; it does not belong in what is packed, but in "
+                      "a layout for --wires"
+                    : "puts blocks of an earlier run back to where they were packed; it needs --from");
         file.finish();
         if (layout) layout->finish();
         if (command.verb == Verb::check) dem::check(command, file, scene);

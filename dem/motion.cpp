@@ -55,7 +55,7 @@ void turn_freely(Quaternion& orientation, const Rotation& rotation, const Vector
     orientation = Quaternion(scale * turn.w, scale * turn.v[0], scale * turn.v[1], scale * turn.v[2]);
 }
 
-void drift(Blocks& blocks, std::size_t block, double step) {
+double drift(Blocks& blocks, std::size_t block, double step) {
     blocks.position[block] += step * blocks.velocity[block];
     const Vector inverse_inertia = blocks.shape_of(block).inverse_inertia / blocks.mass_ratio[block];
     turn_freely(blocks.orientation[block], blocks.rotation[block], blocks.angular_momentum[block],
@@ -64,6 +64,11 @@ void drift(Blocks& blocks, std::size_t block, double step) {
     const Rotation& turn = blocks.rotation[block];
     blocks.angular_velocity[block] =
         turn * inverse_inertia.cwiseProduct(turn.transpose() * blocks.angular_momentum[block]);
+    // The angles of all turns, each about an axis of its own, added up.
+    const double turned = blocks.angular_momentum[block].norm() *
+                          (inverse_inertia[0] + std::abs(inverse_inertia[1] - inverse_inertia[0]) +
+                           std::abs(inverse_inertia[2] - inverse_inertia[0]));
+    return step * (blocks.velocity[block].norm() + blocks.shape_of(block).radius * turned);
 }
 
 }  // namespace dem

@@ -19,8 +19,9 @@ inline void kick_half(Blocks& blocks, std::size_t block, double half_step) {
     blocks.angular_momentum[block] += half_step * blocks.torque[block];
 }
 
-/// Drift: position and orientation after `step` seconds, and the angular velocity there.
-void drift(Blocks& blocks, std::size_t block, double step);
+/// Drift: position and orientation after `step` seconds, and the angular velocity there. Returns a bound on
+/// the way of the block's farthest point, m.
+double drift(Blocks& blocks, std::size_t block, double step);
 
 /// Turns `orientation` freely for `step` seconds with constant angular momentum (world axes); `rotation` is
 /// its matrix, `inverse_inertia` the reciprocal principal moments.

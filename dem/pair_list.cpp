@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <tuple>
 #include <unordered_map>
 
 namespace dem {
 
 namespace {
+
+/// The least that a block at rest may go before its candidates are found again, of the most.
+constexpr double least_share = 0.1;
 
 auto order_of(const Pair& pair) {
     return std::tuple(pair.block, pair.partner, pair.image);
@@ -30,74 +32,134 @@ void spheres_near_box(const Shape& shape, const Rotation& to_partner, const Vect
 }  // namespace
 
 PairList::PairList(const Blocks& blocks, const Surroundings& surroundings, double skin)
-    : blocks_(blocks), surroundings_(surroundings), skin_(skin) {
+    : blocks_(blocks), surroundings_(surroundings), most_freedom_(skin / 3) {
     double smallest = 1e300;
     for (std::size_t i = 0; i < blocks.size(); ++i) smallest = std::min(smallest, blocks.shape_of(i).radius);
     // Wide enough to live through a fall of a third of a block, narrow enough to list neighbours only.
-    wide_skin_ = std::max(2 * skin, 0.3 * smallest);
-    memory_ = std::make_unique<std::pmr::monotonic_buffer_resource>();
+    wide_skin_ = std::max(4 * skin, 0.3 * smallest);
     rebuild();
 }
 
 void PairList::rebuild() {
+    freedom_.assign(blocks_.size(), {least_share * most_freedom_, least_share * most_freedom_});
     find_pairs();
+    stale_.clear();
+    stale_way_.clear();
     narrow_position_ = blocks_.position;
     narrow_orientation_ = blocks_.orientation;
-    for (std::size_t k = 0; k < pairs_.size(); ++k) refresh(k);
+    for (std::size_t k = 0; k < pairs_.size(); ++k) search(k);
     lay_in_order();
+}
+
+void PairList::Held::resize(std::size_t size) {
+    candidates.resize(size);
+    centres.resize(size);
+    contacts.resize(size);
+}
+
+/// Gives a pair a new place at the end, with what it holds.
+void PairList::make_room(Pair& pair, std::size_t room) {
+    const std::size_t to = held_.size();
+    held_.resize(to + room);
+    std::copy_n(held_.contacts.begin() + pair.first, pair.contacts,
+                held_.contacts.begin() + static_cast<std::ptrdiff_t>(to));
+    pair.first = static_cast<std::uint32_t>(to);
+    pair.room = static_cast<std::uint32_t>(room);
+    ++moved_;
 }
 
 // Every step goes through the pairs in their order. Where each of them had its own few pieces of the heap,
 // ten thousand blocks took four times as long a step: none of those pieces was in a cache, or its page in the
 // table of pages.
 void PairList::lay_in_order() {
-    constexpr std::size_t first_piece = 1 << 16;  // bytes
-    auto memory = std::make_unique<std::pmr::monotonic_buffer_resource>(first_piece);
+    std::size_t size = 0;
+    constexpr std::uint32_t spare = 2;  // candidates that come and go need no new place
+    const auto room_of = [](const Pair& pair) {
+        return pair.candidates == 0 ? 0 : std::max(pair.candidates, pair.contacts) + spare;
+    };
+    for (const auto& pair : pairs_) size += room_of(pair);
+    Held laid;
+    laid.resize(size);
+    std::size_t to = 0;
     for (auto& pair : pairs_) {
-        Pair laid(memory.get());
-        laid.block = pair.block;
-        laid.partner = pair.partner;
-        laid.image = pair.image;
-        laid.candidates.assign(pair.candidates.begin(), pair.candidates.end());
-        laid.centres.assign(pair.centres.begin(), pair.centres.end());
-        laid.contacts.reserve(pair.candidates.size());
-        laid.contacts.assign(pair.contacts.begin(), pair.contacts.end());
-        laid.last = pair.last;
-        std::destroy_at(&pair);
-        std::construct_at(&pair, std::move(laid));
+        const auto copy = [&](const auto& from, std::size_t count, auto& into) {
+            std::copy_n(from.begin() + pair.first, count, into.begin() + static_cast<std::ptrdiff_t>(to));
+        };
+        copy(held_.candidates, pair.candidates, laid.candidates);
+        copy(held_.centres, pair.candidates, laid.centres);
+        copy(held_.contacts, pair.contacts, laid.contacts);
+        pair.first = static_cast<std::uint32_t>(to);
+        pair.room = room_of(pair);
+        to += pair.room;
     }
-    memory_ = std::move(memory);
-    refreshed_ = 0;
+    held_ = std::move(laid);
+    moved_ = 0;
 }
 
-bool PairList::refresh(std::size_t index) {
+void PairList::fetch(std::size_t index) const {
+    constexpr std::size_t line = 64;
+    const Pair& pair = pairs_[index];
+    const auto fetch_from = [](const auto* first, std::size_t count) {
+        const auto* bytes = reinterpret_cast<const char*>(first);
+        for (std::size_t byte = 0; byte < count * sizeof(*first); byte += line)
+            __builtin_prefetch(bytes + byte);
+    };
+    fetch_from(held_.candidates.data() + pair.first, pair.candidates);
+    if (!is_block(pair.partner)) fetch_from(held_.centres.data() + pair.first, pair.candidates);
+    fetch_from(held_.contacts.data() + pair.first, pair.contacts);
+}
+
+/// The candidates of a pair, anew; true when it has its first or has lost its last.
+bool PairList::search(std::size_t index) {
     Pair& pair = pairs_[index];
+    found_.clear();
+    found_centres_.clear();
     find_candidates(pair);
-    const std::uint8_t has_candidates = !pair.candidates.empty();
-    if (!has_candidates) pair.contacts.clear();
-    pair.contacts.reserve(pair.candidates.size());
-    ++refreshed_;
-    const bool changed = has_candidates != keys_[index].has_candidates;
-    keys_[index].has_candidates = has_candidates;
+    ++searches_;
+    if (found_.empty()) pair.contacts = 0;
+    const std::size_t needed = std::max<std::size_t>(found_.size(), pair.contacts);
+    if (needed > pair.room) make_room(pair, needed);
+    std::copy(found_.begin(), found_.end(), held_.candidates.begin() + pair.first);
+    std::copy(found_centres_.begin(), found_centres_.end(), held_.centres.begin() + pair.first);
+    const bool changed = found_.empty() != (pair.candidates == 0);
+    pair.candidates = static_cast<std::uint32_t>(found_.size());
     return changed;
 }
 
+/// The bounds of single steps add up to more than the way from where the block was: what is left of its
+/// freedom is measured, and the block's candidates are out of date when there is nothing left.
+void PairList::look_closer(std::uint32_t block, double way) {
+    Freedom& freedom = freedom_[block];
+    freedom.left = freedom.whole - moved_since(block, narrow_position_, narrow_orientation_);
+    if (freedom.left >= 0) return;
+    stale_.push_back(block);
+    stale_way_.push_back(way);
+}
+
 bool PairList::update() {
-    // A candidate pair is found when one of its blocks is refreshed; the other may then be a third of the
-    // skin away from its own reference and go another third on the far side of it: together never more than
-    // the skin.
     if (stale_.empty()) return false;
     bool changed = false;
+    // Between two searches a block goes no farther than its freedom.
     for (const auto block : stale_)
-        if (moved_since(block, wide_position_, wide_orientation_) > wide_skin_ / 2) changed = true;
+        if (moved_since(block, wide_position_, wide_orientation_) > wide_skin_ / 2 - 2 * most_freedom_)
+            changed = true;
     if (changed) find_pairs();
-    for (const auto block : stale_) {
+    // A search costs as much as some dozens of steps with a wider reach.
+    constexpr double steps_between = 24;
+    for (std::size_t k = 0; k < stale_.size(); ++k) {
+        const auto block = stale_[k];
         narrow_position_[block] = blocks_.position[block];
         narrow_orientation_[block] = blocks_.orientation[block];
-        for (const auto entry : pairs_of(block)) changed = refresh(entry >> 1) || changed;
+        const double whole =
+            std::clamp(steps_between * stale_way_[k], least_share * most_freedom_, most_freedom_);
+        freedom_[block] = {whole, whole};
     }
-    // Lists that grew have moved to the end of the memory: in order again before many have.
-    if (refreshed_ > pairs_.size()) lay_in_order();
+    for (const auto block : stale_)
+        for (const auto entry : pairs_of(block)) changed = search(entry >> 1) || changed;
+    stale_.clear();
+    stale_way_.clear();
+    // In order again before many pairs stand at the end.
+    if (moved_ > pairs_.size() / 8) lay_in_order();
     return changed;
 }
 
@@ -131,11 +193,7 @@ void PairList::find_pairs() {
 
     std::vector<Pair> found;
     const auto add = [&](std::uint32_t block, std::uint32_t partner, std::int32_t image) {
-        Pair pair(memory_.get());
-        pair.block = block;
-        pair.partner = partner;
-        pair.image = image;
-        found.push_back(std::move(pair));
+        found.push_back({.block = block, .partner = partner, .image = image});
     };
     const std::int64_t reach_y =
         period > 0 && cells_in_period < 3 ? (cells_in_period - 1) / 2 + (cells_in_period == 2) : 1;
@@ -176,19 +234,23 @@ void PairList::find_pairs() {
               [](const Pair& a, const Pair& b) { return order_of(a) < order_of(b); });
 
     // What old pairs hold goes over to the new ones; both lists are in order.
-    auto old = pairs_.begin();
-    for (auto& pair : found) {
-        while (old != pairs_.end() && order_of(*old) < order_of(pair)) ++old;
-        if (old != pairs_.end() && order_of(*old) == order_of(pair))
-            pair = std::move(*old++);
-        else
-            stale_.push_back(pair.block);
+    std::vector<PairForces> last(found.size());
+    std::vector<std::uint8_t> is_stale(count, 0);
+    for (const auto block : stale_) is_stale[block] = 1;
+    std::size_t old = 0;
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        while (old < pairs_.size() && order_of(pairs_[old]) < order_of(found[k])) ++old;
+        if (old < pairs_.size() && order_of(pairs_[old]) == order_of(found[k])) {
+            found[k] = pairs_[old];
+            last[k] = last_[old++];
+        } else if (!is_stale[found[k].block]) {
+            is_stale[found[k].block] = 1;
+            stale_.push_back(found[k].block);
+            stale_way_.push_back(0);
+        }
     }
     pairs_ = std::move(found);
-    keys_.clear();
-    for (const auto& pair : pairs_) keys_.push_back({pair.block, pair.partner, !pair.candidates.empty()});
-    std::sort(stale_.begin(), stale_.end());
-    stale_.erase(std::unique(stale_.begin(), stale_.end()), stale_.end());
+    last_ = std::move(last);
     wide_position_ = blocks_.position;
     wide_orientation_ = blocks_.orientation;
     find_incidence();
@@ -210,9 +272,8 @@ void PairList::find_incidence() {
     }
 }
 
-void PairList::find_candidates(Pair& pair) {
-    pair.candidates.clear();
-    pair.centres.clear();
+void PairList::find_candidates(const Pair& pair) {
+    const double reach = reach_of(pair);
     if (is_block(pair.partner)) {
         find_block_candidates(pair);
         return;
@@ -224,26 +285,26 @@ void PairList::find_candidates(Pair& pair) {
         if (is_fixed_spheres(pair.partner)) {
             centre.y() -= pair.image * surroundings_.period;
             near_.clear();
-            const double reach = 0.5 * (shape.diameter + surroundings_.fixed_spheres.diameter()) + skin_;
-            surroundings_.fixed_spheres.find_near(centre, reach, near_);
+            surroundings_.fixed_spheres.find_near(
+                centre, 0.5 * (shape.diameter + surroundings_.fixed_spheres.diameter()) + reach, near_);
             for (const auto& other : near_) {
-                pair.candidates.push_back({sphere, other.sphere});
-                pair.centres.push_back(other.centre);
+                found_.push_back({sphere, other.sphere});
+                found_centres_.push_back(other.centre);
             }
         } else {
             const Plane& wall = plane(pair.partner);
-            if ((centre - wall.point).dot(wall.normal) < 0.5 * shape.diameter + skin_)
-                pair.candidates.push_back({sphere, 0});
+            if ((centre - wall.point).dot(wall.normal) < 0.5 * shape.diameter + reach)
+                found_.push_back({sphere, 0});
         }
     }
 }
 
-void PairList::find_block_candidates(Pair& pair) {
+void PairList::find_block_candidates(const Pair& pair) {
     const Shape &a = blocks_.shape_of(pair.block), &b = blocks_.shape_of(pair.partner);
-    const double reach = 0.5 * (a.diameter + b.diameter) + skin_;
+    const double reach = 0.5 * (a.diameter + b.diameter) + reach_of(pair);
     Vector offset = blocks_.position[pair.partner] - blocks_.position[pair.block];
     offset.y() += pair.image * surroundings_.period;
-    const double bound = a.radius + b.radius + skin_;
+    const double bound = a.radius + b.radius + reach_of(pair);
     if (offset.squaredNorm() > bound * bound) return;
     const Rotation &turn_a = blocks_.rotation[pair.block], &turn_b = blocks_.rotation[pair.partner];
     const Rotation b_to_a = turn_a.transpose() * turn_b;
@@ -256,16 +317,37 @@ void PairList::find_block_candidates(Pair& pair) {
     for (const auto i : near_a_)
         for (std::size_t k = 0; k < near_b_.size(); ++k)
             if ((centres_b_[k] - a.spheres[i]).squaredNorm() < reach * reach)
-                pair.candidates.push_back({i, near_b_[k]});
+                found_.push_back({i, near_b_[k]});
 }
 
-void PairList::restore(const std::vector<Pair>& saved) {
-    auto place = pairs_.begin();
+std::vector<TouchingPair> PairList::touching() const {
+    std::vector<TouchingPair> some;
+    for (std::size_t k = 0; k < pairs_.size(); ++k) {
+        const Pair& pair = pairs_[k];
+        if (pair.contacts == 0) continue;
+        const auto held = contacts(pair);
+        some.push_back({pair.block, pair.partner, pair.image, {held.begin(), held.end()}, last_[k]});
+    }
+    return some;
+}
+
+std::size_t PairList::contact_count() const {
+    std::size_t count = 0;
+    for (const auto& pair : pairs_) count += pair.contacts;
+    return count;
+}
+
+void PairList::restore(const std::vector<TouchingPair>& saved) {
+    std::size_t place = 0;
+    const auto order_of_saved = [](const TouchingPair& pair) {
+        return std::tuple(pair.block, pair.partner, pair.image);
+    };
     for (const auto& pair : saved) {
-        while (place != pairs_.end() && order_of(*place) < order_of(pair)) ++place;
-        if (place == pairs_.end() || order_of(*place) != order_of(pair)) continue;
-        place->contacts = pair.contacts;
-        place->last = pair.last;
+        while (place < pairs_.size() && order_of(pairs_[place]) < order_of_saved(pair)) ++place;
+        if (place == pairs_.size() || order_of(pairs_[place]) != order_of_saved(pair)) continue;
+        if (pair.contacts.size() > pairs_[place].room) make_room(pairs_[place], pair.contacts.size());
+        set_contacts(place, pair.contacts);
+        last_[place] = pair.last;
     }
 }
 

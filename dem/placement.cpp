@@ -61,7 +61,7 @@ void for_overlaps(const Blocks& blocks, const Surroundings& surroundings, std::s
         if (only < blocks.size() && pair.block != only && pair.partner != only) continue;
         const double radius = 0.5 * blocks.shape_of(pair.block).diameter;
         const Vector shift(0, pair.image * surroundings.period, 0);
-        for (const auto& candidate : pair.candidates) {
+        for (const auto& candidate : list.candidates(pair)) {
             const Vector centre = blocks.sphere_centre(pair.block, candidate.a) - shift;
             double depth = 0;
             const char* kind = "";

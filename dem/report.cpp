@@ -72,9 +72,7 @@ void Report::window_done(const Simulation& simulation, const PackedPoses& packed
     record_.set_figure("deep_contact_steps", static_cast<double>(simulation.deep_contact_steps()));
     record_.set_figure("time_step_limit", smallest_limit_);
     record_.set_figure("steps", static_cast<double>(simulation.steps()));
-    std::size_t contacts = 0;
-    for (const auto& pair : simulation.pair_list().pairs()) contacts += pair.contacts.size();
-    record_.set_figure("contacts", static_cast<double>(contacts));
+    record_.set_figure("contacts", static_cast<double>(simulation.pair_list().contact_count()));
     if (simulation.awake_block_steps() > 0)
         record_.set_figure("nanoseconds_per_awake_block_step",
                            1e9 * stepping_seconds_ /

@@ -122,6 +122,22 @@ Start start_from(const std::filesystem::path& from, const Scene& scene) {
     return start;
 }
 
+/// Where the run starts, after all that its input must hold has been looked at; throws InputError.
+struct Entry {
+    std::optional<Start> earlier;
+    double begin;
+};
+
+Entry enter(const common::StageCommand& command, const Scene& scene, FlowSource& flow) {
+    Entry entry{};
+    if (!command.from.empty()) entry.earlier = start_from(command.from, scene);
+    entry.begin =
+        scene.restart_clock.value_or(entry.earlier && entry.earlier->t ? *entry.earlier->t : flow.begin());
+    flow.start_at(entry.begin);
+    flow.require_cover(entry.earlier ? entry.earlier->simulation->blocks : scene.placed);
+    return entry;
+}
+
 std::string input_digest_of(const common::StageCommand& command, FlowSource& flow) {
     std::string digest = flow.digest();
     if (!command.from.empty()) digest += common::read_data_file(command.from).text("scene_digest");
@@ -166,6 +182,12 @@ common::Window advance(Simulation& simulation, const PackedPoses& packed, const 
 }
 
 }  // namespace
+
+void require_input(const common::StageCommand& command, const Scene& scene) {
+    if (command.from.empty() && command.upstream.empty()) return;
+    FlowSource flow(command, scene);
+    enter(command, scene, flow);
+}
 
 void pack(const common::StageCommand& command, const common::SceneFile& file, const Scene& scene) {
     const std::string digest = scene_digest_of(file, nullptr, scene, "packing");
@@ -212,11 +234,7 @@ void run(const common::StageCommand& command, const common::SceneFile& file, con
     const std::string input = input_digest_of(command, flow);
     const std::string digest = scene_digest_of(file, layout, scene, input);
     // Whatever is wrong with the input shows before anything in the folder is touched.
-    std::optional<Start> earlier;
-    if (!command.from.empty()) earlier = start_from(command.from, scene);
-    const double begin = scene.restart_clock.value_or(earlier && earlier->t ? *earlier->t : flow.begin());
-    flow.start_at(begin);
-    flow.require_cover(earlier ? earlier->simulation->blocks : scene.placed);
+    auto [earlier, begin] = enter(command, scene, flow);
 
     common::OutputFolder folder(command.out, {.stage = "dem", .scene_digest = digest, .input_digest = input},
                                 command.resume);

@@ -10,6 +10,10 @@ namespace dem {
 /// `dem check`: what would be simulated, why, and how long it would take; runs nothing.
 void check(const common::StageCommand& command, const common::SceneFile& file, const Scene& scene);
 
+/// Throws common::InputError where the flow or the earlier state that a run would start from does not fit the
+/// scene; nothing when neither is given.
+void require_input(const common::StageCommand& command, const Scene& scene);
+
 /// `dem pack`: settles the blocks and stores the state.
 void pack(const common::StageCommand& command, const common::SceneFile& file, const Scene& scene);
 

@@ -83,7 +83,7 @@ std::vector<std::int32_t> as_integers(const auto& values) {
     return {values.begin(), values.end()};
 }
 
-void store_contacts(const std::vector<Pair>& pairs, DataFile& file) {
+void store_contacts(const std::vector<TouchingPair>& pairs, DataFile& file) {
     std::vector<std::int32_t> bodies, spheres;
     std::vector<double> sums, springs;
     for (const auto& pair : pairs) {
@@ -107,15 +107,15 @@ void store_contacts(const std::vector<Pair>& pairs, DataFile& file) {
     file.datasets["/contacts/springs"] = real64("N/m, N", {contacts, 4}, std::move(springs));
 }
 
-std::vector<Pair> contacts_from(const DataFile& file) {
+std::vector<TouchingPair> contacts_from(const DataFile& file) {
     const auto& bodies = file.at("/contacts/bodies").integers();
     const auto& spheres = file.at("/contacts/spheres").integers();
     const auto& sums = file.at("/contacts/sums").doubles();
     const auto& springs = file.at("/contacts/springs").doubles();
-    std::vector<Pair> pairs;
+    std::vector<TouchingPair> pairs;
     std::size_t next = 0;
     for (std::size_t k = 0; 4 * k + 3 < bodies.size(); ++k) {
-        Pair pair;
+        TouchingPair pair;
         pair.block = static_cast<std::uint32_t>(bodies[4 * k]);
         pair.partner = static_cast<std::uint32_t>(bodies[4 * k + 1]);
         pair.image = bodies[4 * k + 2];

@@ -54,7 +54,7 @@ void Simulation::start(double t) {
     // Contacts as they are: a step of no length leaves their histories alone.
     std::vector<PairForces> forces(active_.size());
     contact_model_->evaluate(blocks, surroundings_, pair_list_, active_, 0, forces);
-    for (std::size_t k = 0; k < active_.size(); ++k) pair_list_.pairs()[active_[k]].last = forces[k];
+    for (std::size_t k = 0; k < active_.size(); ++k) pair_list_.last(active_[k]) = forces[k];
     sum_all_forces();
     if (sleeping_) sleeping_->wake_all(blocks, t);  // once more: now the loads they rest under are known
 }
@@ -90,35 +90,37 @@ void Simulation::advance(double target) {
             time_ = k + 1 == count ? target : begin + dt * static_cast<double>(k + 1);
             continue;
         }
-        const bool a_look_follows = (k + 1) % every == 0 || k + 1 == count;
-        step(dt, k + 1 == count ? target : begin + dt * static_cast<double>(k + 1), a_look_follows);
+        const bool is_first = k % every == 0, is_last = (k + 1) % every == 0 || k + 1 == count;
+        step(dt, k + 1 == count ? target : begin + dt * static_cast<double>(k + 1), is_first, is_last);
     }
     check_values();
 }
 
-// Velocity Verlet in two sweeps over the blocks, so that what is known of a block passes through the caches
-// twice a step: blocks move and begin their sums; then pairs are added up in their order, and a block whose
-// pairs are all added is done with the step.
-void Simulation::step(double dt, double t, bool keep_forces) {
-    constexpr std::size_t chunk = 64;  // blocks that stay in the nearest cache between moving and loading
-    pair_list_.begin_update();
+// Velocity Verlet in one sweep over pairs and blocks, so that what is known of a block passes through the
+// caches once a step: pairs are added up in their order, a block whose pairs are all added ends its step and,
+// unless it is time to look around, begins the next one at once. Pairs of later blocks do not concern it.
+void Simulation::step(double dt, double t, bool is_first, bool is_last) {
+    if (is_first) begin_step(awake_, dt, t);
     time_ = t;
-    for (std::size_t from = 0; from < awake_.size(); from += chunk) {
-        const std::span<const std::uint32_t> some(awake_.data() + from,
-                                                  std::min(chunk, awake_.size() - from));
-        for (const auto i : some) {
-            kick_half(blocks, i, 0.5 * dt);
-            drift(blocks, i, dt);
-            pair_list_.note_motion(i);
-        }
-        begin_sums(some);
-        for (const auto& load : own_loads_) load->add(blocks, some, is_awake_, time_);
-    }
     if (pair_list_.update()) find_active();
     for (const auto& load : link_loads_) load->add(blocks, awake_, is_awake_, time_);
-    add_contacts(dt, keep_forces);
+    add_contacts(dt, is_last);
     ++steps_;
     awake_block_steps_ += awake_.size();
+}
+
+/// Blocks move, and the sums of what acts on them at t begin with all but contacts and links.
+void Simulation::begin_step(std::span<const std::uint32_t> some, double dt, double t) {
+    constexpr std::size_t chunk = 64;  // blocks that stay in the nearest cache between moving and loading
+    for (std::size_t from = 0; from < some.size(); from += chunk) {
+        const auto few = some.subspan(from, std::min(chunk, some.size() - from));
+        for (const auto i : few) {
+            kick_half(blocks, i, 0.5 * dt);
+            pair_list_.note_motion(i, drift(blocks, i, dt));
+        }
+        begin_sums(few);
+        for (const auto& load : own_loads_) load->add(blocks, few, is_awake_, t);
+    }
 }
 
 void Simulation::begin_sums(std::span<const std::uint32_t> of) {
@@ -134,11 +136,11 @@ void Simulation::begin_sums(std::span<const std::uint32_t> of) {
 /// Evaluates and adds up all active pairs, and finishes the step of every block on the way. Pairs in their
 /// order: every block adds its own up in the same order, whoever is listed and however many threads run. In
 /// portions that stay in the cache between their evaluation and their adding up.
-void Simulation::add_contacts(double dt, bool keep_forces) {
+void Simulation::add_contacts(double dt, bool is_last) {
     constexpr std::size_t shortest_portion = 256, longest_portion = 4096;
     // Threads share a portion: with few pairs in it they would wait for each other more than they work.
     const std::size_t portion = omp_get_max_threads() > 1 ? longest_portion : shortest_portion;
-    double damping_power = 0;
+    damping_power_ = 0;
     std::size_t finished = 0;
     for (std::size_t from = 0; from < active_.size(); from += portion) {
         const std::span<const std::uint32_t> some(active_.data() + from,
@@ -146,25 +148,25 @@ void Simulation::add_contacts(double dt, bool keep_forces) {
         portion_.resize(std::max(portion_.size(), some.size()));
         contact_model_->evaluate(blocks, surroundings_, pair_list_, some, dt, portion_);
         for (std::size_t k = 0; k < some.size(); ++k) {
-            Pair& pair = pair_list_.pairs()[some[k]];
-            if (pair.contacts.empty()) continue;
+            const Pair& pair = pair_list_.pairs()[some[k]];
+            if (pair.contacts == 0) continue;
             const PairForces& forces = portion_[k];
             add_pair(pair, forces, is_awake_);
             dissipated_ += forces.dissipated;
             if (forces.largest_overlap > rules_.overlap_noted || forces.largest_overlap > largest_overlap_)
                 note_overlap(pair, forces.largest_overlap);
-            if (keep_forces) pair.last = forces;
+            if (is_last) pair_list_.last(some[k]) = forces;
         }
         // The pairs to come belong to this block or later ones: the blocks before it have all their forces.
         const std::size_t next = from + some.size();
-        const std::uint32_t bound = next < active_.size() ? pair_list_.keys()[active_[next]].block
+        const std::uint32_t bound = next < active_.size() ? pair_list_.pairs()[active_[next]].block
                                                           : std::numeric_limits<std::uint32_t>::max();
         const std::size_t first = finished;
         while (finished < awake_.size() && awake_[finished] < bound) ++finished;
-        damping_power += finish_step({awake_.data() + first, finished - first}, dt);
+        finish_step({awake_.data() + first, finished - first}, dt, is_last);
     }
-    damping_power += finish_step({awake_.data() + finished, awake_.size() - finished}, dt);
-    dissipated_ -= dt * damping_power;
+    finish_step({awake_.data() + finished, awake_.size() - finished}, dt, is_last);
+    dissipated_ -= dt * damping_power_;
 }
 
 void Simulation::add_pair(const Pair& pair, const PairForces& forces,
@@ -183,19 +185,23 @@ void Simulation::add_pair(const Pair& pair, const PairForces& forces,
     }
 }
 
-/// The second half of the kick of blocks whose sums are complete; returns the power of their dashpots, W.
-double Simulation::finish_step(std::span<const std::uint32_t> some, double dt) {
-    double damping_power = 0;
-    for (const auto i : some) {
-        kick_half(blocks, i, 0.5 * dt);
-        blocks.update_angular_velocity(i);
-        // The mean velocity of the two kicks around this instant makes this the very energy that the dashpots
-        // take.
-        damping_power +=
-            damping_force_[i].dot(blocks.velocity[i]) + damping_torque_[i].dot(blocks.angular_velocity[i]);
+/// The second half of the kick of blocks whose sums are complete; then, unless this was the last step before
+/// a look around, the first half of their next step.
+void Simulation::finish_step(std::span<const std::uint32_t> some, double dt, bool is_last) {
+    constexpr std::size_t chunk = 64;
+    for (std::size_t from = 0; from < some.size(); from += chunk) {
+        const auto few = some.subspan(from, std::min(chunk, some.size() - from));
+        for (const auto i : few) {
+            kick_half(blocks, i, 0.5 * dt);
+            blocks.update_angular_velocity(i);
+            // The mean velocity of the two kicks around this instant makes this the very energy that the
+            // dashpots take.
+            damping_power_ += damping_force_[i].dot(blocks.velocity[i]) +
+                              damping_torque_[i].dot(blocks.angular_velocity[i]);
+        }
+        for (const auto& load : own_loads_) load->account(blocks, few, dt);
+        if (!is_last) begin_step(few, dt, time_ + dt);
     }
-    for (const auto& load : own_loads_) load->account(blocks, some, dt);
-    return damping_power;
 }
 
 /// The forces on all blocks, sleepers too, from the contacts as they were kept last.
@@ -205,8 +211,10 @@ void Simulation::sum_all_forces() {
     begin_sums(movable_);
     for (const auto& load : own_loads_) load->add(blocks, movable_, is_movable, time_);
     for (const auto& load : link_loads_) load->add(blocks, movable_, is_movable, time_);
-    for (const auto& pair : pair_list_.pairs())
-        if (!pair.contacts.empty()) add_pair(pair, pair.last, is_movable);
+    for (std::size_t k = 0; k < pair_list_.pairs().size(); ++k) {
+        const Pair& pair = pair_list_.pairs()[k];
+        if (pair.contacts > 0) add_pair(pair, pair_list_.last(k), is_movable);
+    }
 }
 
 /// Sleepers whose load of water may have changed enough to wake them are sampled; true when there were any.
@@ -273,10 +281,10 @@ void Simulation::find_awake() {
 
 void Simulation::find_active() {
     active_.clear();
-    for (std::uint32_t k = 0; k < pair_list_.keys().size(); ++k) {
-        const PairList::Key& key = pair_list_.keys()[k];
-        if (!key.has_candidates) continue;
-        if (is_awake_[key.block] || (pair_list_.is_block(key.partner) && is_awake_[key.partner]))
+    for (std::uint32_t k = 0; k < pair_list_.pairs().size(); ++k) {
+        const Pair& pair = pair_list_.pairs()[k];
+        if (pair.candidates == 0) continue;
+        if (is_awake_[pair.block] || (pair_list_.is_block(pair.partner) && is_awake_[pair.partner]))
             active_.push_back(k);
     }
 }
@@ -298,7 +306,7 @@ EnergyBudget Simulation::energy() const {
 }
 
 Simulation::Memory Simulation::memory() const {
-    Memory memory{.pairs = {},
+    Memory memory{.pairs = pair_list_.touching(),
                   .sleeping = {},
                   .time = time_,
                   .dissipated = dissipated_,
@@ -309,8 +317,6 @@ Simulation::Memory Simulation::memory() const {
                   .steps = steps_,
                   .awake_block_steps = awake_block_steps_,
                   .deep_contact_steps = deep_contact_steps_};
-    for (const auto& pair : pair_list_.pairs())
-        if (!pair.contacts.empty()) memory.pairs.push_back(pair);
     if (sleeping_) memory.sleeping = sleeping_->memory();
     return memory;
 }

@@ -17,7 +17,7 @@ namespace dem {
 struct StepRules {
     double time_step = 1e-4;                ///< largest, s; steps are equal between two outputs
     double flow_interval = 2e-3;            ///< between samples of the water and looks for sleepers, s
-    double skin = 0.0012;                   ///< of the sphere pairs, m
+    double skin = 0.0012;                   ///< largest of the sphere pairs, m
     double overlap_noted = 4e-4;            ///< deeper contacts are counted, m
     double overlap_limit = 4e-3;            ///< deeper contacts stop the run, m
     bool cross_still = true;                ///< while all are asleep, go from look to look without steps
@@ -71,7 +71,7 @@ class Simulation {
 
     /// What a saved run adds to the poses, wires and forces.
     struct Memory {
-        std::vector<Pair> pairs;  ///< those that touch
+        std::vector<TouchingPair> pairs;  ///< those that touch
         std::optional<Sleeping::Memory> sleeping;
         double time, dissipated, water_work, gross_water_work, largest_overlap, waves_reach_blocks;
         std::uint64_t steps, awake_block_steps, deep_contact_steps;
@@ -86,11 +86,12 @@ class Simulation {
     const Surroundings& surroundings() const { return surroundings_; }
 
  private:
-    void step(double dt, double t, bool keep_forces);
+    void step(double dt, double t, bool is_first, bool is_last);
+    void begin_step(std::span<const std::uint32_t> some, double dt, double t);
     void begin_sums(std::span<const std::uint32_t> of);
-    void add_contacts(double dt, bool keep_forces);
+    void add_contacts(double dt, bool is_last);
     void add_pair(const Pair& pair, const PairForces& forces, const std::vector<std::uint8_t>& is_wanted);
-    double finish_step(std::span<const std::uint32_t> some, double dt);
+    void finish_step(std::span<const std::uint32_t> some, double dt, bool is_last);
     void sum_all_forces();
     bool sample_doubtful(double t);
     void note_overlap(const Pair& pair, double overlap);
@@ -112,6 +113,7 @@ class Simulation {
     std::vector<Vector> damping_force_, damping_torque_;  ///< the dashpots' share of the sums
     std::vector<std::uint32_t> active_;                   ///< pairs that may touch, with a block awake
     std::vector<PairForces> portion_;                     ///< of the pairs at hand
+    double damping_power_ = 0;                            ///< of the dashpots in the step at hand, W
     double time_ = 0, dissipated_ = 0, largest_overlap_ = 0;
     std::uint64_t steps_ = 0, awake_block_steps_ = 0, deep_contact_steps_ = 0;
 };

@@ -47,7 +47,7 @@ double Simulation::stable_time_step() const {
         bool any = false;
         for (const auto entry : pair_list_.pairs_of(i)) {
             const Pair& pair = pair_list_.pairs()[entry >> 1];
-            if (pair.contacts.empty()) continue;
+            if (pair.contacts == 0) continue;
             any = true;
             const bool is_partner = (entry & 1) != 0;
             const bool both_move = pair_list_.is_block(pair.partner) && !blocks.is_fixed[pair.partner] &&
@@ -56,7 +56,7 @@ double Simulation::stable_time_step() const {
             double inverse = blocks.is_fixed[pair.block] ? 0 : 1 / blocks.mass(pair.block);
             if (pair_list_.is_block(pair.partner) && !blocks.is_fixed[pair.partner])
                 inverse += 1 / blocks.mass(pair.partner);
-            for (const auto& contact : pair.contacts) {
+            for (const auto& contact : pair_list_.contacts(pair)) {
                 const Vector arm = blocks.arm(i, is_partner ? contact.b : contact.a);
                 // The direction of the contact hardly matters to the bound: arms and spheres suffice.
                 Vector direction = Vector::UnitZ();
@@ -74,8 +74,8 @@ double Simulation::stable_time_step() const {
                     direction = pair_list_.plane(pair.partner).normal;
                 }
                 const double k = share * contact.stiffness, ratio = contact_model_->tangential_ratio();
-                const double c = share * contact_model_->damping_coefficient(
-                                             1 / inverse, pair.contacts.size(), contact.stiffness);
+                const double c = share * contact_model_->damping_coefficient(1 / inverse, pair.contacts,
+                                                                             contact.stiffness);
                 add_spring(stiffness, arm, direction, k, ratio * k, inverse_root_mass, inverse_root_inertia);
                 add_spring(damping, arm, direction, c, std::sqrt(ratio) * c, inverse_root_mass,
                            inverse_root_inertia);

@@ -106,10 +106,16 @@ with open(layout, "w") as f:
     f.write("[[wires.along]]\nrows = [1]\n[wires.put_back]\nrows = [1]\n")
 refused("blocks put back in a run that has moved none", GOOD, "layout.toml:3:", "wires.put_back", "needs --from", arguments=("--wires", layout))
 refused("the same in the scene itself", put("[wires.put_back]\nblocks = [1]\n"), "scene.toml:17:", "wires.put_back", "needs --from")
+refused("check of a layout that puts blocks back", GOOD, "layout.toml:3:", "wires.put_back", "needs --from", arguments=("--wires", layout), verb="check")
+refused("packing of a scene that puts blocks back", put("[wires.put_back]\nblocks = [1]\n"), "scene.toml:17:", "wires.put_back", "does not belong", verb="pack")
 
 packed = run(GOOD, verb="pack")
 check.true("packing for the state tests", packed.status == 0, packed.message)
 state = os.path.join(packed.folder, "state.h5")
+checked = run(GOOD, "--wires", layout, "--from", state, verb="check")
+check.true("check of the same layout with a state to put blocks back in", checked.status == 0, checked.message.strip()[-200:] if checked.status else "")
+refused("check against a state of another scene", put("", "roughness = 0.004", "roughness = 0.004\nseed = 2"), "state of another scene",
+        arguments=("--from", state), verb="check")
 refused("state of another scene", put("", "roughness = 0.004", "roughness = 0.004\nseed = 2"), "state of another scene", arguments=("--from", state))
 with open(state, "rb") as f:
     content = f.read()

@@ -81,7 +81,7 @@ TEST(PairList, TouchesWhatBruteForceTouchesAllTheWayDown) {
         simulation->advance(0.01 * k);
         Touching listed;
         for (const auto& pair : simulation->pair_list().pairs())
-            for (const auto& contact : pair.contacts)
+            for (const auto& contact : simulation->pair_list().contacts(pair))
                 listed.insert({pair.block, pair.partner, contact.a, contact.b});
         const Touching expected = touching_by_brute_force(simulation->blocks, simulation->surroundings());
         // Spheres inside a clump are not listed: what brute force finds beyond the list must be such.
@@ -109,6 +109,27 @@ TEST(PairList, ResultsDoNotDependOnTheSkin) {
         if (first.empty()) first = simulation.blocks.position;
         EXPECT_EQ(first, simulation.blocks.position) << "skin " << skin;  // to the bit
     }
+}
+
+TEST(PairList, NoPointGoesFartherThanTheBoundThatListsRelyOn) {
+    World world;
+    world.add("tetrapod", Vector(0, 0, 0));  // three different moments
+    auto& blocks = world.blocks;
+    double most = 0;
+    for (int k = 0; k < 2000; ++k) {
+        const Vector spin =
+            Vector::Random() * std::pow(10.0, k % 5);  // up to 1e4 rad/s: 57 degrees in a step
+        blocks.place(0, Vector::Random(), dem::Quaternion::UnitRandom(), Vector::Random(), spin);
+        const dem::Shape& shape = blocks.shape_of(0);
+        std::vector<Vector> before;
+        for (std::size_t i = 0; i < shape.spheres.size(); ++i) before.push_back(blocks.sphere_centre(0, i));
+        const double bound = dem::drift(blocks, 0, 1e-4);
+        for (std::size_t i = 0; i < before.size(); ++i)
+            most = std::max(most, (blocks.sphere_centre(0, i) - before[i]).norm() / bound);
+    }
+    std::printf("farthest way over its bound: %.3f\n", most);
+    EXPECT_LE(most, 1.0);
+    EXPECT_GT(most, 0.4);  // a bound too wide would have lists searched for nothing
 }
 
 TEST(PairList, PeriodicBoxIsTheSameAnywhere) {
