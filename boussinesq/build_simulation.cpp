@@ -130,14 +130,19 @@ Simulation build_simulation(const Scene& scene) {
     return simulation;
 }
 
+std::size_t first_breaking_cell(const Scene& scene) {
+    return ghost_cells + 1 + scene.grid.cell_at(scene.grid.offshore_end + scene.generation_length);
+}
+
 void add_breaking(Simulation& simulation, const Scene& scene) {
+    const std::size_t first = first_breaking_cell(scene);
     if (scene.breaks_as_bores) {
-        auto bores = std::make_unique<HydrostaticBores>(scene.grid, simulation.bed(), scene.flow);
+        auto bores = std::make_unique<HydrostaticBores>(scene.grid, simulation.bed(), scene.flow, first);
         simulation.flow().set_bores(bores->bores().cells());
         simulation.add_effect(std::move(bores));
     } else {
         auto viscosity =
-            std::make_unique<EddyViscosity>(scene.grid, simulation.bed(), scene.flow, scene.breaking);
+            std::make_unique<EddyViscosity>(scene.grid, simulation.bed(), scene.flow, first, scene.breaking);
         if (scene.breaking.becomes_bore) simulation.flow().set_bores(viscosity->bores().cells());
         simulation.add_effect(std::move(viscosity));
     }

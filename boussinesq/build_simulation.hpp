@@ -12,6 +12,9 @@ Simulation build_simulation(const Scene& scene);
 /// Switches breaking on in a simulation that goes without.
 void add_breaking(Simulation& simulation, const Scene& scene);
 
+/// First cell (padded) in which waves may break: shoreward of where they are made.
+std::size_t first_breaking_cell(const Scene& scene);
+
 /// Depth below which a flume without moving shoreline is no longer safely wet, m.
 double shoreline_margin(const Scene& scene);
 

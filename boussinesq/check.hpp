@@ -12,7 +12,8 @@ struct Forecast {
     double steps, seconds, nanoseconds_per_cell_step;
     double memory;           ///< bytes
     double relative_error;   ///< expected, of the wave; from the cost study
-    std::string error_from;  ///< which of its cases
+    std::string error_from;  ///< what it rests on
+    std::string warning;     ///< the run goes wrong within its first steps; empty: it does not
 };
 /// Times a few hundred steps of the scene's own flume on this machine.
 Forecast forecast(const Scene& scene);

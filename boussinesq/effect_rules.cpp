@@ -18,8 +18,8 @@ double shallowest(const Expectation& expected) {
     return depth;
 }
 
-/// Height of the wave shoaled to another depth; a wave without period follows Green's law.
-double shoaled_height(const Expectation& expected, double depth) {
+/// Height of the incident wave shoaled to another depth; a wave without period follows Green's law.
+double incident_height(const Expectation& expected, double depth) {
     double gain;
     if (expected.period > 0) {
         const double w = 2.0 * std::numbers::pi / expected.period;
@@ -29,16 +29,38 @@ double shoaled_height(const Expectation& expected, double depth) {
     } else {
         gain = std::pow(expected.generator_depth / depth, 0.25);
     }
-    return expected.height * gain * (expected.reflects ? 2.0 : 1.0);
+    return expected.height * gain;
+}
+
+double shoaled_height(const Expectation& expected, double depth) {
+    return incident_height(expected, depth) * (expected.reflects ? 2.0 : 1.0);
 }
 
 }  // namespace
+
+Shallowest shallowest_place(const Expectation& expected) {
+    constexpr double breaking = 0.8;
+    double depth = shallowest(expected);
+    if (depth <= 0 || incident_height(expected, depth) > breaking * depth) {
+        double low = std::max(depth, 0.0), high = expected.generator_depth;  // breaks at low, not at high
+        for (int i = 0; i < 60; ++i) {
+            const double middle = 0.5 * (low + high);
+            (incident_height(expected, middle) > breaking * middle ? low : high) = middle;
+        }
+        depth = high;
+    }
+    const double length =
+        expected.period > 0
+            ? 2.0 * std::numbers::pi / airy_wave_number(2.0 * std::numbers::pi / expected.period, depth)
+            : 0.0;
+    return {.depth = depth, .height = incident_height(expected, depth), .length = length};
+}
 
 Verdict needs_dispersion(const Expectation& expected) {
     if (expected.period <= 0) return {true, "the wave is not periodic: its shape rests on dispersion"};
     double deepest = 0;
     for (const auto& point : expected.bed) deepest = std::max(deepest, -point[1]);
-    const double w = 2.0 * std::numbers::pi / expected.period;
+    const double w = 2.0 * std::numbers::pi / expected.shortest_period;
     const double k = airy_wave_number(w, deepest), k_shallow = w / std::sqrt(gravity * deepest);
     const double length = expected.bed.back()[0] - expected.bed.front()[0];
     const double error = (k - k_shallow) * length / (2.0 * std::numbers::pi);

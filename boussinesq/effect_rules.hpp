@@ -12,6 +12,7 @@ struct Expectation {
     std::vector<std::array<double, 2>> bed;  ///< polyline, m
     double height = 0;              ///< incident height in the depth of the generator (irregular: largest), m
     double period = 0;              ///< s; 0: not periodic
+    double shortest_period = 0;     ///< of the waves that carry energy: of a sea half the peak's, s
     double generator_depth = 0;     ///< m
     bool reflects = false;          ///< a wall at the shoreward end
     double phase_tolerance = 0.02;  ///< error of phase over the flume that is worth a term, in periods
@@ -23,6 +24,13 @@ struct Verdict {
     bool is_on;
     std::string reason;
 };
+
+/// The incident wave where the bed comes highest, shoaled by linear theory; where waves break, at the depth
+/// of which they are 0.8 high.
+struct Shallowest {
+    double depth, height, length;  ///< m; length 0: not periodic
+};
+Shallowest shallowest_place(const Expectation& expected);
 
 Verdict needs_dispersion(const Expectation& expected);
 /// Shoals the incident wave over the bed by linear theory and looks for H/h above 0.4 (0.8 is the breaking

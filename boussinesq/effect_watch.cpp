@@ -14,21 +14,27 @@ namespace {
 /// length.
 constexpr std::int64_t interval = 16;
 
-}  // namespace
+/// Largest eta_t / sqrt(g h), and where (x, m).
+struct SteepestFront {
+    double ratio, place;
+};
 
-SteepestFront steepest_front(const Simulation& simulation) {
+/// Of the cells from `first` (padded) on.
+SteepestFront steepest_front(const Simulation& simulation, std::size_t first) {
     const double* h = simulation.state().depth.data();
     const double* q = simulation.state().discharge.data();
     const double dry = 10.0 * simulation.flow().parameters().dry_depth,
                  half = 0.5 / simulation.grid().spacing;
     SteepestFront front{0.0, 0.0};
-    for (std::size_t k = ghost_cells + 1; k + 1 < ghost_cells + simulation.grid().cells; ++k) {
+    for (std::size_t k = first; k + 1 < ghost_cells + simulation.grid().cells; ++k) {
         if (h[k] <= dry) continue;
         const double ratio = (q[k - 1] - q[k + 1]) * half / std::sqrt(gravity * h[k]);
         if (ratio > front.ratio) front = {ratio, simulation.grid().centre(k - ghost_cells)};
     }
     return front;
 }
+
+}  // namespace
 
 void EffectWatch::start_breaking(Simulation& simulation) {
     add_breaking(simulation, scene_);
@@ -51,7 +57,7 @@ std::optional<std::string> EffectWatch::look(Simulation& simulation) {
     if (!simulation.flow().terms().dispersion || scene_.has_breaking || breaking_started_ || breaking_told_ ||
         simulation.steps() % interval != 0)
         return {};
-    const SteepestFront front = steepest_front(simulation);
+    const SteepestFront front = steepest_front(simulation, first_breaking_cell(scene_));
     if (front.ratio <= scene_.breaking.start) return {};
     if (scene_.breaking_is_automatic) {
         start_breaking(simulation);

@@ -26,10 +26,4 @@ class EffectWatch {
     bool shoreline_started_ = false, breaking_started_ = false, breaking_told_ = false;
 };
 
-/// Largest eta_t / sqrt(g h) over the flume, and where (x, m).
-struct SteepestFront {
-    double ratio, place;
-};
-SteepestFront steepest_front(const Simulation& simulation);
-
 }  // namespace boussinesq

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "boussinesq/effects/breaking.hpp"
@@ -35,6 +34,18 @@ double settled_time(const Scene& scene, double x) {
         time += piece / airy_group_speed(airy_wave_number(w, depth), depth);
     }
     return time + 2.0 * scene.waves.period;
+}
+
+/// More than this much energy over the flume came from nowhere, m4/s2 (over the density): what was there at
+/// the start, and a third for the vertical motion of waves of kh = 3, which is counted as in the classical
+/// equations; and incident waves that are reflected whole, g H^2 / 4 over every metre, four times
+/// over for what shoaling and groups gather.
+double largest_energy_expected(const Scene& scene, double at_start) {
+    const double length = scene.grid.shoreward_end() - scene.grid.offshore_end;
+    const bool comes_in = scene.waves.kind != WaveKind::none && scene.waves.kind != WaveKind::solitary;
+    return 4.0 / 3.0 * at_start +
+           (comes_in ? gravity * scene.waves.height * scene.waves.height * length : 0.0) +
+           1e-12 * gravity * scene.waves.depth * scene.waves.depth * length;  // rounding of still water
 }
 
 }  // namespace
@@ -184,10 +195,11 @@ void Report::fill_invariants() {
     largest_energy_ = std::max(largest_energy_, energy);
     record_.set_figure("energy.at_start", energy_at_start_);
     record_.set_figure("energy.largest", largest_energy_);
-    record_.set_invariant({.name = "energy",
-                           .value = energy,
-                           .unit = "m4/s2",
-                           .bound = std::numeric_limits<double>::infinity()});
+    record_.set_figure("energy.at_end", energy);
+    record_.set_invariant({.name = "energy over what may come in",
+                           .value = largest_energy_ / largest_energy_expected(scene_, energy_at_start_),
+                           .unit = "-",
+                           .bound = 1.0});
 }
 
 void Report::fill_statistics(const std::vector<GaugeRecord>& gauges) {
@@ -195,6 +207,15 @@ void Report::fill_statistics(const std::vector<GaugeRecord>& gauges) {
     const double period = scene_.waves.period;
     for (const GaugeRecord& gauge : gauges) {
         if (gauge.time.size() < 8) continue;
+        const std::string key = fmt::format("gauges.{}.", gauge.name);
+        constexpr double least_samples = 10.0;  // a wave; fewer miss its crest by more than 5 % of its height
+        if (period > 0 && period < least_samples * gauge.interval) {
+            record_.set_note(key + "statistics",
+                             fmt::format("none: {:.3g} samples a wave, expected at least {:.0f}; set the "
+                                         "gauge's interval to {:.3g} s or less",
+                                         period / gauge.interval, least_samples, period / least_samples));
+            continue;
+        }
         double begin = settled_time(scene_, gauge.x);
         double end = gauge.time.back();
         if (scene_.waves.kind == WaveKind::regular && end > begin) {
@@ -210,7 +231,6 @@ void Report::fill_statistics(const std::vector<GaugeRecord>& gauges) {
             return std::span<const double>(values).subspan(from, count);
         };
         const WaveStatistics statistics = wave_statistics(part(gauge.time), part(gauge.elevation));
-        const std::string key = fmt::format("gauges.{}.", gauge.name);
         record_.set_figure(key + "begin", gauge.time[from]);
         record_.set_figure(key + "waves", static_cast<double>(statistics.waves));
         record_.set_figure(key + "significant_height", statistics.significant_height);
@@ -218,7 +238,10 @@ void Report::fill_statistics(const std::vector<GaugeRecord>& gauges) {
         record_.set_figure(key + "mean_height", statistics.mean_height);
         record_.set_figure(key + "significant_period", statistics.significant_period);
         record_.set_figure(key + "mean_period", statistics.mean_period);
-        record_.set_figure(key + "set_up", statistics.mean_level);
+        const WetLevel wet = level_while_wet(part(gauge.time), part(gauge.elevation),
+                                             -scene_.still_depth(gauge.x) + 10.0 * scene_.flow.dry_depth);
+        record_.set_figure(key + "wet_share", wet.share);
+        if (wet.share > 0) record_.set_figure(key + "set_up", wet.mean);
         record_.set_figure(key + "spectral_height", 4.0 * statistics.root_mean_square);
         record_.set_figure(key + "highest", statistics.highest);
         record_.set_figure(key + "lowest", statistics.lowest);

@@ -175,6 +175,7 @@ void decide_effects(const common::SceneFile& file, const EffectWishes& wishes, c
     expected.height = waves.kind == WaveKind::irregular ? 1.8 * waves.height : waves.height;
     expected.period =
         waves.kind == WaveKind::regular || waves.kind == WaveKind::irregular ? waves.period : 0.0;
+    expected.shortest_period = waves.kind == WaveKind::irregular ? 0.5 * waves.period : expected.period;
     expected.generator_depth = waves.depth;
     expected.reflects = scene.shoreward == EndKind::wall && scene.bed.back()[1] < 0.0;
     expected.phase_tolerance = accuracy == common::Accuracy::draft      ? 0.05
@@ -235,6 +236,9 @@ Scene read_scene(const common::SceneFile& file) {
                        {"viscous_bore", "eddy_viscosity", "hydrostatic"}, "viscous_bore");
     scene.breaks_as_bores = breaking == "hydrostatic";
     scene.breaking.becomes_bore = breaking == "viscous_bore";
+    if (scene.breaks_as_bores)
+        for (const char* key : {"breaking_start", "breaking_end", "breaking_mixing"})
+            if (section.has(key)) section.problem(key, "has no effect with breaking = \"hydrostatic\"");
     scene.breaking.start =
         section.number("breaking_start", "-", "eta_t / sqrt(g h) at which a front begins to break",
                        Range::between(0.1, 2), scene.breaking.start);

@@ -76,6 +76,18 @@ WaveStatistics wave_statistics(std::span<const double> time, std::span<const dou
     return result;
 }
 
+WetLevel level_while_wet(std::span<const double> time, std::span<const double> elevation, double lowest) {
+    const auto weights = weights_of(time);
+    WetLevel wet;
+    for (std::size_t i = 0; i < time.size(); ++i) {
+        if (elevation[i] <= lowest) continue;
+        wet.share += weights[i];
+        wet.mean += weights[i] * elevation[i];
+    }
+    if (wet.share > 0) wet.mean /= wet.share;
+    return wet;
+}
+
 Reflection reflection_of(std::span<const double> time,
                          const std::array<std::span<const double>, 3>& elevation,
                          const std::array<double, 3>& place, double depth, const LinearDispersion& dispersion,

@@ -24,6 +24,13 @@ struct WaveStatistics {
 /// `time` increases, s; elevation in m. Steps may differ.
 WaveStatistics wave_statistics(std::span<const double> time, std::span<const double> elevation);
 
+/// Mean level while the surface stands above `lowest` (m), and for how much of the time it does: on a beach
+/// that falls dry the surface is the bed, which is no level of water.
+struct WetLevel {
+    double share = 0, mean = 0;  ///< -, m
+};
+WetLevel level_while_wet(std::span<const double> time, std::span<const double> elevation, double lowest);
+
 /// Incident and reflected waves apart, from three gauges in line (Mansard and Funke 1980: least squares).
 struct Reflection {
     double incident_height = 0,

@@ -51,26 +51,26 @@ void BoreCells::restore(const double* memory) {
     for (std::size_t k = 0; k < cells_.size(); ++k) cells_[k] = memory[k] != 0.0 ? 1 : 0;
 }
 
-EddyViscosity::EddyViscosity(const Grid& grid, const Bed& bed, const FlowParameters& flow,
+EddyViscosity::EddyViscosity(const Grid& grid, const Bed& bed, const FlowParameters& flow, std::size_t first,
                              EddyViscosityConstants constants)
     : grid_(grid),
       dry_depth_(flow.dry_depth),
+      first_(first),
       constants_(constants),
       age_(grid.padded(), 0.0),
-      new_age_(grid.padded(), 0.0),
       viscosity_(grid.padded(), 0.0),
-      ratio_(grid.padded(), 0.0),
-      value_(grid.padded(), 0.0),
+      new_age_(grid.padded(), 0.0),
       bores_(grid, bed) {}
 
 void EddyViscosity::find_fronts(const WaveState& state, double t, double step) {
     const double* h = state.depth.data();
     const double* q = state.discharge.data();
     const double half = 0.5 / grid_.spacing;
-    const std::size_t first = ghost_cells + 1, last = ghost_cells + grid_.cells - 1;
+    const std::size_t last = ghost_cells + grid_.cells - 1;
     any_ = false;
+    new_age_[first_ - 1] = new_age_[last] = 0.0;
     if (constants_.becomes_bore) bores_.clear();
-    for (std::size_t k = first; k < last; ++k) {
+    for (std::size_t k = first_; k < last; ++k) {
         const double rise = (q[k - 1] - q[k + 1]) * half;
         viscosity_[k] = 0.0;
         new_age_[k] = 0.0;
@@ -107,13 +107,13 @@ void EddyViscosity::diffuse(WaveState& state, double step, std::size_t first, st
         const double pivot = 1.0 / (std::max(h[k], dry_depth_) + before + after - before * ratio);
         ratio = after * pivot;
         value = (q[k] + before * value) * pivot;
-        ratio_[k] = ratio;
-        value_[k] = value;
+        new_age_[k] = ratio;
+        q[k] = value;
         before = after;
     }
     double above = 0.0;
     for (std::size_t k = last + 1; k-- > first;) {
-        above = value_[k] + ratio_[k] * above;
+        above = q[k] + new_age_[k] * above;
         q[k] = std::max(h[k], dry_depth_) * above;
     }
 }
@@ -144,8 +144,9 @@ void EddyViscosity::recall(const std::vector<double>& values) {
     bores_.restore(values.data() + 3 + age_.size());
 }
 
-HydrostaticBores::HydrostaticBores(const Grid& grid, const Bed& bed, const FlowParameters& flow)
-    : grid_(grid), dry_depth_(flow.dry_depth), bores_(grid, bed) {
+HydrostaticBores::HydrostaticBores(const Grid& grid, const Bed& bed, const FlowParameters& flow,
+                                   std::size_t first)
+    : grid_(grid), dry_depth_(flow.dry_depth), first_(first), bores_(grid, bed) {
     fronts_.reserve(grid.cells);
 }
 
@@ -154,8 +155,8 @@ void HydrostaticBores::apply(WaveState& state, double t, double) {
     const double* q = state.discharge.data();
     const double half = 0.5 / grid_.spacing;
     fronts_.clear();
-    const std::size_t first = ghost_cells + 1, last = ghost_cells + grid_.cells - 1;
-    for (std::size_t k = first; k < last; ++k) {
+    const std::size_t last = ghost_cells + grid_.cells - 1;
+    for (std::size_t k = first_; k < last; ++k) {
         const double rise = (q[k - 1] - q[k + 1]) * half;
         if (rise <= 0.0 || h[k] <= 10.0 * dry_depth_) continue;
         const double speed = std::sqrt(gravity * h[k]);

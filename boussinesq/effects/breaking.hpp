@@ -65,7 +65,9 @@ class BoreCells {
 
 class EddyViscosity : public StepEffect {
  public:
-    EddyViscosity(const Grid& grid, const Bed& bed, const FlowParameters& flow,
+    /// Waves break in cells from `first` (padded) on: where they are made they are drawn to the incident
+    /// wave.
+    EddyViscosity(const Grid& grid, const Bed& bed, const FlowParameters& flow, std::size_t first,
                   EddyViscosityConstants constants);
     std::string name() const override { return "breaking"; }
     void apply(WaveState& state, double t, double step) override;
@@ -79,17 +81,18 @@ class EddyViscosity : public StepEffect {
     void diffuse(WaveState& state, double step, std::size_t first, std::size_t last);
     Grid grid_;
     double dry_depth_;
+    std::size_t first_;
     EddyViscosityConstants constants_;
     BreakingRecord record_;
-    std::vector<double> age_, new_age_, viscosity_;  ///< padded; s, s, m2/s
-    std::vector<double> ratio_, value_;
+    std::vector<double> age_, viscosity_;  ///< padded; s, m2/s
+    std::vector<double> new_age_;          ///< padded, s; room for the elimination between steps
     BoreCells bores_;
     bool any_ = false;
 };
 
 class HydrostaticBores : public StepEffect {
  public:
-    HydrostaticBores(const Grid& grid, const Bed& bed, const FlowParameters& flow);
+    HydrostaticBores(const Grid& grid, const Bed& bed, const FlowParameters& flow, std::size_t first);
     std::string name() const override { return "breaking"; }
     void apply(WaveState& state, double t, double step) override;
     std::vector<double> memory() const override;
@@ -100,6 +103,7 @@ class HydrostaticBores : public StepEffect {
  private:
     Grid grid_;
     double dry_depth_;
+    std::size_t first_;
     BreakingRecord record_;
     BoreCells bores_;
     std::vector<std::size_t> fronts_;  ///< padded cells

@@ -133,6 +133,27 @@ double PermanentForm::elevation(double phase) const {
     return sum;
 }
 
+/// Cosine series of the exact wave of the classical equations.
+PermanentForm cnoidal_form(double height, double period, double depth) {
+    const CnoidalWave wave = cnoidal_wave(height, period, depth);
+    constexpr std::size_t modes = 192, points = 2 * modes;
+    PermanentForm form{};
+    form.period = period;
+    form.still_depth = depth;
+    form.speed = wave.speed(depth);
+    form.length = form.speed * period;
+    form.flux = form.speed * depth;
+    form.amplitude.assign(modes, 0.0);
+    for (std::size_t i = 0; i < points; ++i) {
+        const double phase = 2.0 * pi * static_cast<double>(i) / static_cast<double>(points);
+        const double level = wave.depth_at(phase) - depth;
+        for (std::size_t n = 1; n <= modes; ++n)
+            form.amplitude[n - 1] +=
+                (n == modes ? 1.0 : 2.0) * level * std::cos(static_cast<double>(n) * phase) / points;
+    }
+    return form;
+}
+
 PermanentForm permanent_form(double alpha, double height, double period, double depth) {
     const double time_scale = std::sqrt(depth / gravity);
     const double scaled_period = period / time_scale, scaled_height = height / depth;
@@ -144,6 +165,7 @@ PermanentForm permanent_form(double alpha, double height, double period, double 
             fmt::format("the equations with alpha = {} carry no wave of period {} s in {} m of water", alpha,
                         period, depth));
     const double ursell = scaled_height * length * length;
+    if (alpha == 1.0 && ursell > 26.0) return cnoidal_form(height, period, depth);
     const std::size_t modes = ursell < 26.0 ? 24 : ursell < 200.0 ? 48 : 96;
 
     std::vector<double> unknown(modes + 2, 0.0);

@@ -7,8 +7,9 @@
 ///
 /// solved for a cosine series of h by collocation and Newton, from a small wave up to the height asked for. A
 /// wave so made keeps its form on the grid, which Stokes or cnoidal theory, solutions of other equations, do
-/// not quite. The mean mass flux is zero (Stokes' second definition), as in a closed flume: c = m / d, L = c
-/// T.
+/// not quite. For the classical equations, alpha = 1, and Ursell numbers above 26 the exact cnoidal wave is
+/// taken instead, by elliptic functions. The mean mass flux is zero (Stokes' second definition), as in a
+/// closed flume: c = m / d, L = c T.
 #pragma once
 
 #include <vector>

@@ -46,6 +46,10 @@ TEST(PermanentForm, OfTheClassicalEquationsIsTheExactCnoidalWave) {
         for (int i = 0; i <= 50; ++i)
             EXPECT_NEAR(form.elevation(pi * i / 50), exact.depth_at(pi * i / 50) - 0.4,
                         1e-9);  // Newton stops at 1e-13, modes at 1e-10
+        // The same by Newton where alpha = 1 takes the elliptic functions.
+        const PermanentForm beside = permanent_form(1.0 + 1e-9, height, 3.0, 0.4);
+        EXPECT_NEAR(beside.speed, exact.speed(0.4), 1e-7);
+        EXPECT_NEAR(beside.elevation(0.0), form.elevation(0.0), 1e-7);
     }
 }
 
