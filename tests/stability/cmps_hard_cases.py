@@ -43,18 +43,21 @@ def sound(run, name):
 
 
 def still_water():
-    duration = 60.0 if LONG else 6.0
+    duration, depth = 60.0, 0.3
     gauges = '[gauges]\nlevel = 0.2\nfloor = {x = 0.2, z = 0.0, kind = "pressure", interval = 0.01}'
-    run = Run("still", tank(duration, [0, 0.4, 0, 0.5], rectangle(0, 0.4, 0, 0.3), 0.015, head=gauges))
+    run = Run("still", tank(duration, [0, 0.4, 0, 0.5], rectangle(0, 0.4, 0, depth), 0.015, more="particles_interval = 0.5", head=gauges))
     if not sound(run, f"still water {duration:g} s"):
         return
     t, level = run.gauge("level")
     _, pressure = run.gauge("floor", "pressure")
-    late = pressure[len(pressure) // 2:] / (1000 * 9.81 * 0.3)
-    drift = (np.mean(level[-50:]) - np.mean(level[:50])) / 0.3
-    expect(abs(drift) < 0.02, f"still water: level drift {drift:+.4f} (bound 0.02)")
+    _, _, velocity = run.fluid()
+    late = pressure[len(pressure) // 4:] / (1000 * 9.81 * depth)
+    drift = (np.mean(level[-50:]) - np.mean(level[:50])) / depth
+    speed = np.sqrt(np.mean(np.sum(velocity[len(velocity) // 4:] ** 2, axis=2))) / np.sqrt(9.81 * depth)
+    expect(abs(drift) < 0.005, f"still water: level drift {drift:+.4f} in {duration:g} s (bound 0.005: a tenth of a spacing)")
     expect(abs(np.mean(late) - 1) < 0.01, f"still water: floor pressure {np.mean(late):.4f} rho g h (bound 1 %)")
-    expect(np.std(late) < 0.01, f"still water: noise {np.std(late):.4f} rho g h (bound 0.01)")
+    expect(np.std(late) < 0.005, f"still water: noise {np.std(late):.4f} rho g h (bound 0.005: a tenth of what the standard method leaves)")
+    expect(speed < 0.03, f"still water: particles move at {speed:.4f} sqrt(g d) rms (bound 0.03: shifting keeps them going, it must not grow)")
     expect(run.invariant("largest_energy_gain") < 0.005, f"still water: energy gain {run.invariant('largest_energy_gain'):.5f} (bound 0.005)")
 
 

@@ -121,8 +121,10 @@ def group_speed(period):
     return 0.5 * omega / k * (1 + 2 * k * DEPTH / np.sinh(2 * k * DEPTH))
 
 
-def packet(arguments, name, more, height=0.08, period=PERIOD, length=9.0):
-    onshore, centre, cg = OFFSHORE + length, 6.0 * period / PERIOD, group_speed(period)
+def packet(arguments, name, more, height=0.08, period=PERIOD):
+    cg = group_speed(period)
+    length = 9.0 * max(1.0, period * cg / (PERIOD * group_speed(PERIOD)))  # m: a longer group takes longer to pass the gauges
+    onshore, centre = OFFSHORE + length, 6.0 * period / PERIOD
     wave = 2 * np.pi / wave_number(period, DEPTH)
     near = 0.47 * length
     places = [OFFSHORE + near, OFFSHORE + near + 0.11 * wave, OFFSHORE + near + 0.28 * wave]
@@ -130,7 +132,7 @@ def packet(arguments, name, more, height=0.08, period=PERIOD, length=9.0):
     end = np.ceil(arrive[2] + 4.0 * period)
     waves = os.path.join(arguments.out, f"packet_{height:g}_{period:g}_{end:g}")
     if not os.path.exists(os.path.join(waves, "run.json")):
-        write_packet(waves, height, 24, 36, end, centre, width=1.2 * period, period=period)
+        write_packet(waves, height, 24, onshore + 2, end, centre, width=1.2 * period, period=period)
     out = run(arguments, f"packet_{name}", waves, height, period, end, onshore, places, more)
     t, eta = gauges_of(out, 3)
     t, shoreward, offshore = separate(t, eta, places, 0.55 / period, 1.45 / period)
@@ -188,6 +190,7 @@ def main():
     parser.add_argument("--try", dest="trial", nargs=2, action="append", metavar=("NAME", "KEYS"), help="a boundary of your own: cmps keys, \\n between")
     parser.add_argument("--lengths", type=float, nargs="+", default=[4.2, 4.57, 4.94], help="of the steady test's flumes, m")
     parser.add_argument("--only", choices=["packet", "steady"])
+    parser.add_argument("--periods", type=float, nargs="+", default=[1.2, PERIOD, 2.4], help="of the groups, s")
     arguments = parser.parse_args()
     os.makedirs(arguments.out, exist_ok=True)
     boundaries = {name: keys.replace("\\n", "\n") for name, keys in arguments.trial} if arguments.trial else BOUNDARIES
@@ -197,7 +200,7 @@ def main():
     rows = []
     for name, more in boundaries.items():
         if arguments.only != "steady":
-            for period in (PERIOD,) if arguments.smoke or arguments.trial else (1.2, PERIOD, 2.4):
+            for period in (PERIOD,) if arguments.smoke or arguments.trial else arguments.periods:
                 found = packet(arguments, f"{name}_{period:g}", more, period=period)
                 rows.append([name, "packet", period, f"{found['boundary']:.3f}", f"{found['wall']:.3f}", f"{found['incident']:.3f}", "", "", ""])
                 print(f"{name}: packet of T = {period:g} s: boundary reflects {found['boundary']:.3f}, wall {found['wall']:.3f}, incident {found['incident']:.3f} of what was asked for, noise {found['noise']:.3f}", flush=True)
