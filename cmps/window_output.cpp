@@ -10,8 +10,7 @@
 namespace cmps {
 namespace {
 
-constexpr double time_slack = 1e-9;      // s: sample times are computed in several ways
-constexpr double force_interval = 0.02;  // s
+constexpr double time_slack = 1e-9;  // s: sample times are computed in several ways
 
 bool is_due(Series& series, double time) {
     if (series.next >= series.due.size() || time < series.due[series.next] - time_slack) return false;
@@ -42,7 +41,7 @@ template <class Visit>
 void WindowOutput::for_each_series(const Visit& visit) {
     if (flow_) visit(flow_series_, scene_.flow.interval);
     visit(particle_series_, scene_.particles_interval);
-    visit(force_series_, force_interval);
+    if (!scene_.structure.empty()) visit(force_series_, force_interval);
     for (std::size_t g = 0; g < gauges_.size(); ++g) visit(gauge_series_[g], gauges_[g].interval);
 }
 

@@ -15,6 +15,9 @@
 
 namespace cmps {
 
+/// Between two samples of the forces on structures, s.
+inline constexpr double force_interval = 0.02;
+
 /// Samples of one quantity within a window.
 struct Series {
     std::vector<double> due;  ///< sample times of this window, s
