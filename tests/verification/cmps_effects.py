@@ -122,8 +122,29 @@ def open_boundaries():
     expect(closed > 1.5 * opened, f"relaxation_zone: antinode {opened:.2f} H with it, {closed:.2f} H without zone and absorption (a piston alone)")
     expect(opened < 2.3, f"relaxation_zone: antinode {opened:.2f} H, 2.0 when all that comes back leaves (bound 2.3)")
     expect(taken < 2.5, f"absorption alone: antinode {taken:.2f} H (bound 2.5)")
+    expect(closed > 1.5 * taken, f"absorption: antinode {taken:.2f} H with it, {closed:.2f} H without (a piston alone)")
     expect(closed > 1.2 * paper, f"wall_overflow: antinode {paper:.2f} H with it, {closed:.2f} H without")
     print(f"      share of time: relaxation_zone {share(run, 'relaxation_zone'):.4f}, absorption {share(run, 'absorption'):.4f}, wall_overflow {share(over, 'wall_overflow'):.4f}")
+
+
+def nothing_to_do():
+    """Waves that are there from the start and whose reflection is not back yet: the start and the boundaries' effects change nothing."""
+    waves = os.path.join(FOLDER, "there_already")
+    write_waves(waves, HEIGHT, PERIOD, DEPTH, 24, 36, 6, window=1.0, arrival=-1.0)
+    for boundary, effects in (("relaxation", ("start_at_arrival", "relaxation_zone", "absorption")), ("paper", ("wall_overflow",))):
+        scene = flume(6.0, 35.0, f'boundary = "{boundary}"\ncrest_lowering = 0.075', "near = 27.0\nfar = 29.0", over_depth=12)
+        auto = Run(f"idle_{boundary}", scene, waves=waves)
+        by_chance = {gauge: chance(f"idle_{boundary}_other", scene, waves, auto, gauge, 2.0, 6.0) for gauge in ("near", "far")}
+        for effect in effects:
+            expect(auto.record["effects"][effect]["on"], f"{effect}: on by itself")
+            off = Run(f"idle_{effect}", scene, waves=waves, sets=[f'effects.{effect}="off"'])
+            expect(effect not in off.record["phases"], f"{effect}: off, it is not in the step at all")
+            for gauge in ("near", "far"):
+                difference = rms_difference(auto, off, gauge, 2.0, 6.0) / HEIGHT
+                if effect == "start_at_arrival":  # the waves are there at t = 0: both start then
+                    expect(difference == 0, f"{effect}: gauge {gauge}, the same bits with and without")
+                else:
+                    expect(difference < 2 * by_chance[gauge], f"{effect}: gauge {gauge}, with and without differ by {difference:.3f} H rms, by chance {by_chance[gauge]:.3f} (bound: twice that)")
 
 
 def viscosity():
@@ -189,10 +210,16 @@ def overtopping():
     off = Run("over_off", scene, waves=waves, sets=['effects.overtopping_basin="off"'])
     _, kept = off.gauge("over", "overtopped_volume")
     expect(off.figure("particles", "overtopped") == 0 and kept.max() > 0, f"overtopping_basin: without it the water stays in the run, {kept[-1]:.4f} m2 behind the crest at the end")
+    # a trough behind the crest that fills: what went over flows back unless it is taken out
+    narrow = flume(10.0, 27.75, structure, gauges)
+    with_basin, without = (Run(f"trough_{wish}", narrow, waves=waves, sets=[f'effects.overtopping_basin="{wish}"']).gauge("over", "overtopped_volume")[1][-1]
+                           for wish in ("on", "off"))
+    expect(abs(with_basin - ledger) < 0.15 * ledger, f"overtopping_basin: with a trough of 0.05 m behind the crest {with_basin:.4f} m2, as with 1.3 m")
+    expect(without < 0.85 * with_basin, f"overtopping_basin: without it the trough fills and gives back, {without:.4f} m2: more than 15 % too little")
     print(f"      particles at the end: {on.figure('particles', 'fluid'):.0f} with it, {off.figure('particles', 'fluid'):.0f} without")
 
 
-for case in (start_at_arrival, start_in_waves, open_boundaries, viscosity, turbulence_and_basin, overtopping):
+for case in (start_at_arrival, start_in_waves, open_boundaries, nothing_to_do, viscosity, turbulence_and_basin, overtopping):
     if len(sys.argv) < 2 or sys.argv[1] in case.__name__:
         case()
 finish()
