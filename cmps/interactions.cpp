@@ -8,8 +8,23 @@
 namespace cmps {
 
 namespace {
+
 constexpr std::size_t serial_below = 2000;  // rows; less is done before threads are awake
+
+/// Weights, and slopes where asked for, of `count` pairs in one flat run: roots and divisions stay vectorised
+/// whatever the rows' lengths.
+template <bool has_slope, class Kernel>
+void weigh(const Kernel& kernel, std::size_t count, const float* dx, const float* dz, float* w,
+           float* w_over_r, float* w_over_r2, float* slope) {
+#pragma omp simd
+    for (std::size_t k = 0; k < count; ++k) {
+        const float r2 = dx[k] * dx[k] + dz[k] * dz[k], over_r = 1.0F / std::sqrt(r2);
+        w[k] = kernel.weight(r2), w_over_r[k] = w[k] * over_r, w_over_r2[k] = w_over_r[k] * over_r;
+        if constexpr (has_slope) slope[k] = kernel.slope(r2);
+    }
 }
+
+}  // namespace
 
 template <class Kernel>
 void compute_interactions(const Kernel& kernel, const Particles& particles, const NeighbourLists& lists,
@@ -47,24 +62,17 @@ void compute_interactions(const Kernel& kernel, const Particles& particles, cons
                 all_dz[k] = static_cast<float>(z[neighbour[k]] - zi);
             }
         }
-        // one flat run: roots and divisions stay vectorised whatever the rows' lengths
-        const float* const dx = all_dx + from;
-        const float* const dz = all_dz + from;
-        float* const w = all_w + from;
-        float* const g = all_g + from;
-#pragma omp simd
-        for (std::size_t k = 0; k < to - from; ++k) {
-            const float r2 = dx[k] * dx[k] + dz[k] * dz[k], over_r = 1.0F / std::sqrt(r2);
-            w[k] = kernel.weight(r2), w_over_r[k] = w[k] * over_r, g[k] = w_over_r[k] * over_r;
-        }
-        if (extras.slope)
-#pragma omp simd
-            for (std::size_t k = from; k < to; ++k)
-                out.slope[k] = kernel.slope(all_dx[k] * all_dx[k] + all_dz[k] * all_dz[k]);
+        const auto weigh_block = extras.slope ? weigh<true, Kernel> : weigh<false, Kernel>;
+        weigh_block(kernel, to - from, all_dx + from, all_dz + from, all_w + from, w_over_r, all_g + from,
+                    out.slope.data() + from);
         if (extras.curvature)
 #pragma omp simd
             for (std::size_t k = from; k < to; ++k)
                 out.curvature[k] = kernel.curvature(all_dx[k] * all_dx[k] + all_dz[k] * all_dz[k]);
+        const float* const dx = all_dx + from;
+        const float* const dz = all_dz + from;
+        const float* const w = all_w + from;
+        const float* const g = all_g + from;
         for (std::size_t r = row0; r < row1; ++r) {
             const std::size_t begin = lists.start[r] - from, carriers = lists.carriers[r] - from,
                               end = lists.start[r + 1] - from;
