@@ -37,6 +37,7 @@ void compute_interactions(const Kernel& kernel, const Particles& particles, cons
     for (auto* array : {&out.number_density, &out.asymmetry_x, &out.asymmetry_z, &out.crowding_x,
                         &out.crowding_z, &out.moment_xx, &out.moment_xz, &out.moment_zz})
         array->resize(rows);
+    out.largest_weight.resize(rows);
 
     const double* const x = particles.x.data();
     const double* const z = particles.z.data();
@@ -76,9 +77,10 @@ void compute_interactions(const Kernel& kernel, const Particles& particles, cons
         for (std::size_t r = row0; r < row1; ++r) {
             const std::size_t begin = lists.start[r] - from, carriers = lists.carriers[r] - from,
                               end = lists.start[r + 1] - from;
-            float n = 0, fx = 0, fz = 0, sx = 0, sz = 0;
-#pragma omp simd reduction(+ : n, fx, fz, sx, sz)
+            float n = 0, fx = 0, fz = 0, sx = 0, sz = 0, largest = 0;
+#pragma omp simd reduction(+ : n, fx, fz, sx, sz) reduction(max : largest)
             for (std::size_t k = begin; k < end; ++k) {
+                largest = w[k] > largest ? w[k] : largest;
                 n += w[k], fx += w_over_r[k] * dx[k], fz += w_over_r[k] * dz[k], sx += g[k] * dx[k],
                     sz += g[k] * dz[k];
             }
@@ -87,6 +89,7 @@ void compute_interactions(const Kernel& kernel, const Particles& particles, cons
             for (std::size_t k = carriers; k < end; ++k) {
                 xx += g[k] * dx[k] * dx[k], xz += g[k] * dx[k] * dz[k], zz += g[k] * dz[k] * dz[k];
             }
+            out.largest_weight[r] = largest;
             out.number_density[r] = static_cast<double>(n);
             out.asymmetry_x[r] = static_cast<double>(fx), out.asymmetry_z[r] = static_cast<double>(fz);
             out.crowding_x[r] = static_cast<double>(sx), out.crowding_z[r] = static_cast<double>(sz);

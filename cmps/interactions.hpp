@@ -19,6 +19,7 @@ struct Interactions {
     std::vector<float> slope;      ///< w'/r; empty unless asked for
     std::vector<float> curvature;  ///< w'' - w'/r; empty unless asked for
 
+    std::vector<float> largest_weight;                    ///< that of the nearest neighbour
     std::vector<double> number_density;                   ///< n = sum w
     std::vector<double> asymmetry_x, asymmetry_z;         ///< F = sum w r_ij / r, points where neighbours are
     std::vector<double> crowding_x, crowding_z;           ///< sum w r_ij / r^2 over all neighbours, 1/m

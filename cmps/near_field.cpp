@@ -207,14 +207,18 @@ void NearField::push_apart(double step) {
     const double g = std::hypot(settings.gravity_x, settings.gravity_z);
     const double reference_step = 0.4 * l0 / std::sqrt(g * std::max(settings.depth, l0));
     const double push_step = std::max(step, reference_step);
+    // contact ends at 0.6 l0 from the wall particle across the face and 0.55 l0 along it
+    const double near = std::max(reach, 0.82 * l0), near2 = near * near;
+    const float near_weight = std::visit(
+        [&](const auto& kernel) { return kernel.weight(static_cast<float>(1.001 * near2)); }, kernel_);
     constexpr double restitution = 0.2;
     change_u_.assign(particles.fluid, 0.0);
     change_w_.assign(particles.fluid, 0.0);
     const NeighbourLists& lists = search.lists();
     common::parallel_for(particles.fluid, serial_below / 2, [&](std::size_t f) {
         const std::size_t row = walls + f, i = first + f;
+        if (interactions.largest_weight[row] < near_weight) return;  // most: nobody is near
         const double ui = particles.u[i], wi = particles.w[i];
-        const double near2 = std::max(reach, l0) * std::max(reach, l0);
         double du = 0, dw = 0;
         for (std::size_t k = lists.start[row]; k < lists.start[row + 1]; ++k) {
             const double dx = interactions.dx[k], dz = interactions.dz[k], r2 = dx * dx + dz * dz;

@@ -110,39 +110,40 @@ void PressureEquation::assemble(const Particles& particles, const NeighbourLists
     density_error.resize(rows);
 
     const bool is_higher_order = settings_.laplacian == Laplacian::higher_order;
-    const std::vector<float>& coefficient = is_higher_order ? interactions.curvature : interactions.weight;
+    const float* const coefficient =
+        is_higher_order ? interactions.curvature.data() : interactions.weight.data();
     // both are scaled to sum c (p_i - p_j) = -scale * laplacian(p) on the lattice
     const double scale = is_higher_order ? lattice_.number_density * lattice_.laplacian_scale
                                          : lattice_.number_density * lattice_.lambda / 4.0;
     const std::int32_t* const neighbour = lists.neighbour.data();
-    const std::int32_t* const unknown = unknown_of.data();
+    const std::int32_t* const unknown = unknown_of.data() - first;  // by particle
     std::int32_t* const column = matrix.column.data();
     float* const value = matrix.value.data();
-    std::uint32_t next = 0;
+    std::size_t next = 0;
     matrix.start[0] = 0;
     for (std::size_t a = 0; a < unknowns; ++a) {
         const std::size_t row = static_cast<std::size_t>(row_of[a]);
-        const std::uint32_t begin = next, end = lists.start[row + 1];
+        const std::size_t begin = next, from = lists.carriers[row], end = lists.start[row + 1];
         double diagonal = 0;
-        std::uint32_t left = 0;
+#pragma omp simd reduction(+ : diagonal)
+        for (std::size_t k = from; k < end; ++k) diagonal += static_cast<double>(coefficient[k]);
         // an entry is written in any case and overwritten by the next one where it does not count: no branch
-        for (std::uint32_t k = lists.carriers[row]; k < end; ++k) {
-            const float c = coefficient[k];
-            diagonal += static_cast<double>(c);
-            const std::int32_t b = unknown[static_cast<std::size_t>(neighbour[k]) - first];
+        for (std::size_t k = from; k < end; ++k) {
+            const std::int32_t b = unknown[neighbour[k]];
             column[next] = b;
-            value[next] = -c;
-            const bool counts = (b >= 0) & (c != 0);
-            next += counts;
-            left += counts & (b < static_cast<std::int32_t>(a));
+            value[next] = -coefficient[k];
+            next += (b >= 0) & (coefficient[k] > 0);
         }
-        matrix.upper[a] = begin + left;
+        std::int32_t left = 0;
+#pragma omp simd reduction(+ : left)
+        for (std::size_t k = begin; k < next; ++k) left += column[k] < static_cast<std::int32_t>(a);
+        matrix.upper[a] = static_cast<std::uint32_t>(begin) + static_cast<std::uint32_t>(left);
         if (is_smooth)
             diagonal +=
                 missing_kernel(interactions, row) * (is_higher_order ? lattice_.laplacian_ratio : 1.0);
         // a closed full box has no surface: the small excess makes it regular and fixes the mean
         matrix.diagonal[a] = std::max(diagonal, 1e-3 * n0) * (1 + 1e-7);
-        matrix.start[a + 1] = next;
+        matrix.start[a + 1] = static_cast<std::uint32_t>(next);
     }
     common::parallel_for(rows, 2000, [&](std::size_t row) {
         density_error[row] = (interactions.number_density[row] - n0) / n0;

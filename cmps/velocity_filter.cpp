@@ -26,15 +26,20 @@ void VelocityFilter::find_gradients(const Particles& particles, const NeighbourL
     common::parallel_for(particles.fluid, serial_below, [&](std::size_t f) {
         const std::size_t row = walls + f, end = lists.start[row + 1];
         std::size_t begin = lists.carriers[row];
-        while (begin < end && static_cast<std::size_t>(neighbour[begin]) < first) ++begin;
-        begin_[f] = begin;
         const double ui = u[first + f], wi = w[first + f];
-        double xx = 0, xz = 0, zz = 0, ux = 0, uz = 0, wx = 0, wz = 0;
-#pragma omp simd reduction(+ : xx, xz, zz, ux, uz, wx, wz)
+        double ux = 0, uz = 0, wx = 0, wz = 0;
+        double xx = interactions.moment_xx[row], xz = interactions.moment_xz[row],
+               zz = interactions.moment_zz[row];
+        for (; begin < end && static_cast<std::size_t>(neighbour[begin]) < first;
+             ++begin) {  // walls do not count
+            const double gx = all_g[begin] * all_x[begin], gz = all_g[begin] * all_z[begin];
+            xx -= gx * all_x[begin], xz -= gx * all_z[begin], zz -= gz * all_z[begin];
+        }
+        begin_[f] = begin;
+#pragma omp simd reduction(+ : ux, uz, wx, wz)
         for (std::size_t k = begin; k < end; ++k) {
             const double gx = all_g[k] * all_x[k], gz = all_g[k] * all_z[k];
             const double du = u[neighbour[k]] - ui, dw = w[neighbour[k]] - wi;
-            xx += gx * all_x[k], xz += gx * all_z[k], zz += gz * all_z[k];
             ux += gx * du, uz += gz * du, wx += gx * dw, wz += gz * dw;
         }
         const double determinant = xx * zz - xz * xz;
