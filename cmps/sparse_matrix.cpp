@@ -9,8 +9,8 @@ void multiply(const SparseMatrix& matrix, const std::vector<double>& x, std::vec
     const float* const value = matrix.value.data();
     const std::int32_t* const column = matrix.column.data();
     common::parallel_for(matrix.rows(), 8000, [&](std::size_t i) {
-        // plain: on rows this short gathers and a vector's reduction cost more than they save; two sums, so that
-        // one addition need not wait for the one before
+        // plain: on rows this short gathers and a vector's reduction cost more than they save; two sums, so
+        // that one addition need not wait for the one before
         double sum = matrix.diagonal[i] * in[i], other = 0;
         std::size_t k = matrix.start[i];
         const std::size_t end = matrix.start[i + 1];
