@@ -59,9 +59,9 @@ void forecast_error(const Scene& scene, Forecast& result) {
         result.error_from =
             fmt::format("{:.0f} cells a wave length, Ursell number up to {:.2g}", cells, ursell);
     }
-    if (scene.has_breaking && !(result.relative_error > surf_zone_error)) {
+    if (place.breaks) {
         result.relative_error = surf_zone_error;
-        result.error_from = "of heights where waves break, as against a measured beach";
+        result.error_from = "of heights where waves break, as against a measured beach; less ahead of it";
     }
     result.relative_error = std::min(result.relative_error, 1.0);  // out of phase
 }

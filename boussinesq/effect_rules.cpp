@@ -41,7 +41,8 @@ double shoaled_height(const Expectation& expected, double depth) {
 Shallowest shallowest_place(const Expectation& expected) {
     constexpr double breaking = 0.8;
     double depth = shallowest(expected);
-    if (depth <= 0 || incident_height(expected, depth) > breaking * depth) {
+    const bool breaks = depth <= 0 || incident_height(expected, depth) > breaking * depth;
+    if (breaks) {
         double low = std::max(depth, 0.0), high = expected.generator_depth;  // breaks at low, not at high
         for (int i = 0; i < 60; ++i) {
             const double middle = 0.5 * (low + high);
@@ -53,7 +54,7 @@ Shallowest shallowest_place(const Expectation& expected) {
         expected.period > 0
             ? 2.0 * std::numbers::pi / airy_wave_number(2.0 * std::numbers::pi / expected.period, depth)
             : 0.0;
-    return {.depth = depth, .height = incident_height(expected, depth), .length = length};
+    return {.depth = depth, .height = incident_height(expected, depth), .length = length, .breaks = breaks};
 }
 
 Verdict needs_dispersion(const Expectation& expected) {

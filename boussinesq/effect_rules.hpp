@@ -29,6 +29,7 @@ struct Verdict {
 /// of which they are 0.8 high.
 struct Shallowest {
     double depth, height, length;  ///< m; length 0: not periodic
+    bool breaks;                   ///< the bed comes higher still
 };
 Shallowest shallowest_place(const Expectation& expected);
 
