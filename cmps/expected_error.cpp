@@ -14,8 +14,8 @@ struct Row {
     ExpectedError error;
 };
 
-/// The ladder of workflows/studies/cost_cmps.py as measured with the default schemes: rms over three lattices;
-/// a wave's figure scatters by about half of itself.
+/// The ladder of workflows/studies/cost_cmps.py as measured with the default schemes: rms over three
+/// lattices; a wave's figure scatters by about half of itself.
 constexpr std::array<Row, 6> ladder = {{
     {8, {.floor_pressure = 0.0125, .levels = 0.035, .wave_height = 0.029}},
     {12, {.floor_pressure = 0.0120, .levels = 0.028, .wave_height = 0.082}},

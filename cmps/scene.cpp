@@ -47,8 +47,9 @@ void check_polygons(const Section& section, const char* key, std::vector<Polygon
     }
 }
 
-/// Resolution of the accuracy levels: particles over the depth of still water at the wall. Points of the measured
-/// ladder (cmps/README.md); standard is the cheapest that keeps 95 % of a wave over three lengths with a margin.
+/// Resolution of the accuracy levels: particles over the depth of still water at the wall. Points of the
+/// measured ladder (cmps/README.md); standard is the cheapest that keeps 95 % of a wave over three lengths
+/// with a margin.
 int particles_over_depth(common::Accuracy accuracy) {
     switch (accuracy) {
         case common::Accuracy::draft:
