@@ -93,45 +93,54 @@ void NeighbourSearch::build(Particles& particles, const std::vector<std::vector<
     const double* const x = particles.x.data();
     const double* const z = particles.z.data();
     const std::size_t first_fluid = particles.first_fluid();
+    // Where the candidates of a cell stand: the same for all particles in it, which come one after another.
+    struct Runs {
+        std::size_t cell = static_cast<std::size_t>(-1), columns = 0, candidates = 0;
+        std::uint32_t boundary[5][2], fluid[5][2];
+        bool has_boundary = false;
+    };
+    const auto find_runs = [&](std::size_t column, std::size_t row, Runs& runs) {
+        const std::size_t row0 = row > 2 ? row - 2 : 0, row1 = std::min(row + 2, cells.rows - 1);
+        const std::size_t column0 = column > 2 ? column - 2 : 0;
+        runs.columns = std::min(column + 2, cells.columns - 1) - column0 + 1;
+        runs.candidates = 0;
+        runs.has_boundary = false;
+        for (std::size_t c = 0; c < runs.columns; ++c) {
+            const std::size_t from = (column0 + c) * cells.rows + row0,
+                              to = (column0 + c) * cells.rows + row1 + 1;
+            runs.boundary[c][0] = boundary_start_[from], runs.boundary[c][1] = boundary_start_[to];
+            runs.fluid[c][0] = fluid_start_[from], runs.fluid[c][1] = fluid_start_[to];
+            const std::uint32_t boundary = boundary_start_[to] - boundary_start_[from];
+            runs.candidates += boundary + fluid_start_[to] - fluid_start_[from];
+            runs.has_boundary |= boundary > 0;
+        }
+    };
     // Writes the neighbours of row r, ascending, to `out` (room for all candidates); returns how many, and
     // how many of them are dummies.
-    const auto collect = [&](std::size_t r, std::int32_t* out, std::uint32_t& dummies) {
+    const auto collect = [&](std::size_t r, const Runs& runs, std::int32_t* out, std::uint32_t& dummies) {
         const auto i = static_cast<std::int32_t>(first + r);
         const double xi = x[i], zi = z[i];
-        const std::size_t column = cells.column(xi), row = cells.row(zi);
-        const std::size_t row0 = row > 2 ? row - 2 : 0, row1 = std::min(row + 2, cells.rows - 1);
-        const std::size_t column0 = column > 2 ? column - 2 : 0,
-                          column1 = std::min(column + 2, cells.columns - 1);
-        std::uint32_t found = 0;
+        std::size_t found = 0;
+        // a candidate is written in any case, and overwritten by the next one where it is too far: no branch
         const auto test = [&](std::int32_t j) {
             const double dx = x[j] - xi, dz = z[j] - zi;
             out[found] = j;
             found += (dx * dx + dz * dz < reach2) & (j != i);
         };
-        for (std::size_t c = column0; c <= column1; ++c) {
-            const std::uint32_t end = boundary_start_[c * cells.rows + row1 + 1];
-            for (std::size_t m = boundary_start_[c * cells.rows + row0]; m < end; ++m)
-                test(boundary_members_[m]);
+        dummies = 0;
+        if (runs.has_boundary) {
+            for (std::size_t c = 0; c < runs.columns; ++c)
+                for (std::size_t m = runs.boundary[c][0]; m < runs.boundary[c][1]; ++m)
+                    test(boundary_members_[m]);
+            std::sort(out, out + found);
+            dummies = static_cast<std::uint32_t>(
+                std::lower_bound(out, out + found, static_cast<std::int32_t>(first)) - out);
         }
-        std::sort(out, out + found);
-        dummies = static_cast<std::uint32_t>(
-            std::lower_bound(out, out + found, static_cast<std::int32_t>(first)) - out);
-        for (std::size_t c = column0; c <= column1; ++c) {
-            const auto end = static_cast<std::int32_t>(first_fluid + fluid_start_[c * cells.rows + row1 + 1]);
-            for (auto j = static_cast<std::int32_t>(first_fluid + fluid_start_[c * cells.rows + row0]);
-                 j < end; ++j)
-                test(j);
+        for (std::size_t c = 0; c < runs.columns; ++c) {
+            const auto end = static_cast<std::int32_t>(first_fluid + runs.fluid[c][1]);
+            for (auto j = static_cast<std::int32_t>(first_fluid + runs.fluid[c][0]); j < end; ++j) test(j);
         }
-        return found;
-    };
-    const auto candidates = [&](std::size_t r) {
-        const std::size_t column = cells.column(x[first + r]), row = cells.row(z[first + r]);
-        const std::size_t row0 = row > 2 ? row - 2 : 0, row1 = std::min(row + 2, cells.rows - 1);
-        std::size_t sum = 0;
-        for (std::size_t c = column > 2 ? column - 2 : 0; c <= std::min(column + 2, cells.columns - 1); ++c)
-            sum += fluid_start_[c * cells.rows + row1 + 1] - fluid_start_[c * cells.rows + row0] +
-                   boundary_start_[c * cells.rows + row1 + 1] - boundary_start_[c * cells.rows + row0];
-        return sum;
+        return static_cast<std::uint32_t>(found);
     };
 
     // Blocks of rows are collected side by side, then joined: the same lists for any number of threads.
@@ -141,11 +150,17 @@ void NeighbourSearch::build(Particles& particles, const std::vector<std::vector<
     common::parallel_for(blocks, 8, [&](std::size_t b) {
         std::vector<std::int32_t>& found = blocks_[b];
         std::size_t used = 0;
+        Runs runs;
         for (std::size_t r = b * block; r < std::min(rows, (b + 1) * block); ++r) {
-            const std::size_t room = used + candidates(r) + 1;
+            const std::size_t column = cells.column(x[first + r]), row = cells.row(z[first + r]);
+            if (column * cells.rows + row != runs.cell) {
+                find_runs(column, row, runs);
+                runs.cell = column * cells.rows + row;
+            }
+            const std::size_t room = used + runs.candidates + 1;
             if (found.size() < room) found.resize(2 * room);
             std::uint32_t dummies = 0;
-            const std::uint32_t count_here = collect(r, found.data() + used, dummies);
+            const std::uint32_t count_here = collect(r, runs, found.data() + used, dummies);
             lists_.start[r + 1] = count_here;
             lists_.carriers[r] = dummies;
             used += count_here;
