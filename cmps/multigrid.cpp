@@ -120,22 +120,29 @@ void Multigrid::coarsen(std::size_t level) {
     }
 }
 
+/// Cholesky factors by rows. Left of the first entry of a row there is nothing, before and after: boxes are
+/// numbered across the shorter side of a flume, so that only a narrow band has to be worked through.
 void Multigrid::factorise_coarsest() {
     const SparseMatrix& matrix = matrix_of(depth_);
     const std::size_t n = matrix.rows();
     dense_.assign(n * n, 0.0);
+    first_.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
         dense_[i * n + i] = matrix.diagonal[i];
-        for (std::size_t k = matrix.start[i]; k < matrix.upper[i]; ++k)
-            dense_[i * n + static_cast<std::size_t>(matrix.column[k])] = static_cast<double>(matrix.value[k]);
+        first_[i] = i;
+        for (std::size_t k = matrix.start[i]; k < matrix.upper[i]; ++k) {
+            const auto j = static_cast<std::size_t>(matrix.column[k]);
+            dense_[i * n + j] = static_cast<double>(matrix.value[k]);
+            first_[i] = std::min(first_[i], j);
+        }
     }
     for (std::size_t i = 0; i < n; ++i) {
         double* const row = &dense_[i * n];
-        for (std::size_t j = 0; j <= i; ++j) {
+        for (std::size_t j = first_[i]; j <= i; ++j) {
             const double* const other = &dense_[j * n];
             double sum = row[j];
 #pragma omp simd reduction(- : sum)
-            for (std::size_t k = 0; k < j; ++k) sum -= row[k] * other[k];
+            for (std::size_t k = std::max(first_[i], first_[j]); k < j; ++k) sum -= row[k] * other[k];
             row[j] = i == j ? std::sqrt(sum) : sum / other[j];
         }
     }
@@ -150,14 +157,14 @@ void Multigrid::solve_coarsest() {
         const double* const row = &dense_[i * n];
         double sum = static_cast<double>(level.right[i]);
 #pragma omp simd reduction(- : sum)
-        for (std::size_t k = 0; k < i; ++k) sum -= row[k] * x[k];
+        for (std::size_t k = first_[i]; k < i; ++k) sum -= row[k] * x[k];
         x[i] = sum / row[i];
     }
     for (std::size_t i = n; i-- > 0;) {
         const double* const row = &dense_[i * n];
         const double value = x[i] /= row[i];
 #pragma omp simd
-        for (std::size_t k = 0; k < i; ++k) x[k] -= row[k] * value;
+        for (std::size_t k = first_[i]; k < i; ++k) x[k] -= row[k] * value;
     }
     for (std::size_t i = 0; i < n; ++i) level.result[i] = static_cast<float>(x[i]);
 }

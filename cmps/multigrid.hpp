@@ -50,6 +50,7 @@ class Multigrid {
     std::vector<Level> levels_;
     std::size_t depth_ = 0;
     std::vector<double> dense_, dense_result_;  ///< Cholesky factor of the coarsest matrix, by rows
+    std::vector<std::size_t> first_;            ///< column of the first entry of each of its rows
 };
 
 }  // namespace cmps
