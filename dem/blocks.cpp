@@ -1,5 +1,7 @@
 #include "dem/blocks.hpp"
 
+#include "dem/prefetch.hpp"
+
 namespace dem {
 
 void Blocks::add(int shape_index, const Vector& at, const Quaternion& turned, bool fixed,
@@ -45,6 +47,14 @@ double Blocks::set_mass_ratio(std::size_t block, double ratio) {
 double Blocks::kinetic_energy(std::size_t block) const {
     return 0.5 * mass(block) * velocity[block].squaredNorm() +
            0.5 * angular_momentum[block].dot(angular_velocity[block]);
+}
+
+void Blocks::fetch(std::size_t first, std::size_t count) const {
+    for (const auto* array : {&position, &velocity, &angular_momentum, &angular_velocity, &force, &torque})
+        fetch_ahead(*array, first, count);
+    fetch_ahead(orientation, first, count);
+    fetch_ahead(rotation, first, count);
+    fetch_ahead(mass_ratio, first, count);
 }
 
 }  // namespace dem

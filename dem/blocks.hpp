@@ -54,6 +54,8 @@ struct Blocks {
     /// Changes the added mass; velocities stay. Returns the kinetic energy gained, J.
     double set_mass_ratio(std::size_t block, double ratio);
     double kinetic_energy(std::size_t block) const;
+    /// Asks for the memory of blocks that a step will soon come to.
+    void fetch(std::size_t first, std::size_t count) const;
 };
 
 }  // namespace dem

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dem/prefetch.hpp"
+
 namespace dem {
 
 namespace {
@@ -102,6 +104,11 @@ void FluidLoads::account(const Blocks& blocks, std::span<const std::uint32_t> so
         work += done;
         gross_work += std::abs(done);
     }
+}
+
+void FluidLoads::fetch(std::size_t first, std::size_t count) const {
+    fetch_ahead(loads_, first, count);
+    fetch_ahead(applied_, first, count);
 }
 
 void WireLoads::add(Blocks& blocks, std::span<const std::uint32_t> wanted,

@@ -26,6 +26,8 @@ class Load {
                      const std::vector<std::uint8_t>& is_wanted, double t) = 0;
     /// After the step of these blocks: adds up the work done on them.
     virtual void account(const Blocks& blocks, std::span<const std::uint32_t> some, double dt) = 0;
+    /// Asks for the memory of blocks that a step will soon come to.
+    virtual void fetch(std::size_t first, std::size_t count) const = 0;
     /// Who is awake has changed.
     virtual void awake_changed(const std::vector<std::uint8_t>& is_awake) = 0;
 };
@@ -39,6 +41,7 @@ class FluidLoads final : public Load {
     void add(Blocks& blocks, std::span<const std::uint32_t> wanted,
              const std::vector<std::uint8_t>& is_wanted, double t) override;
     void account(const Blocks& blocks, std::span<const std::uint32_t> some, double dt) override;
+    void fetch(std::size_t first, std::size_t count) const override;
     void awake_changed(const std::vector<std::uint8_t>& is_awake) override;
 
     void set_motion(std::variant<UniformWater, FlowGrid> motion);
@@ -84,6 +87,7 @@ class WireLoads final : public Load {
     void add(Blocks& blocks, std::span<const std::uint32_t> wanted,
              const std::vector<std::uint8_t>& is_wanted, double t) override;
     void account(const Blocks&, std::span<const std::uint32_t>, double) override {}
+    void fetch(std::size_t, std::size_t) const override {}
     void awake_changed(const std::vector<std::uint8_t>& is_awake) override;
 
  private:

@@ -5,6 +5,8 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "dem/prefetch.hpp"
+
 namespace dem {
 
 namespace {
@@ -97,16 +99,10 @@ void PairList::lay_in_order() {
 }
 
 void PairList::fetch(std::size_t index) const {
-    constexpr std::size_t line = 64;
     const Pair& pair = pairs_[index];
-    const auto fetch_from = [](const auto* first, std::size_t count) {
-        const auto* bytes = reinterpret_cast<const char*>(first);
-        for (std::size_t byte = 0; byte < count * sizeof(*first); byte += line)
-            __builtin_prefetch(bytes + byte);
-    };
-    fetch_from(held_.candidates.data() + pair.first, pair.candidates);
-    if (!is_block(pair.partner)) fetch_from(held_.centres.data() + pair.first, pair.candidates);
-    fetch_from(held_.contacts.data() + pair.first, pair.contacts);
+    fetch_ahead(held_.candidates, pair.first, pair.candidates);
+    if (!is_block(pair.partner)) fetch_ahead(held_.centres, pair.first, pair.candidates);
+    fetch_ahead(held_.contacts, pair.first, pair.contacts);
 }
 
 /// The candidates of a pair, anew; true when it has its first or has lost its last.

@@ -9,6 +9,7 @@
 #include "common/errors.hpp"
 #include "common/parallel.hpp"
 #include "dem/motion.hpp"
+#include "dem/prefetch.hpp"
 
 namespace dem {
 
@@ -137,7 +138,7 @@ void Simulation::begin_sums(std::span<const std::uint32_t> of) {
 /// order: every block adds its own up in the same order, whoever is listed and however many threads run. In
 /// portions that stay in the cache between their evaluation and their adding up.
 void Simulation::add_contacts(double dt, bool is_last) {
-    constexpr std::size_t shortest_portion = 256, longest_portion = 4096;
+    constexpr std::size_t shortest_portion = 64, longest_portion = 4096;
     // Threads share a portion: with few pairs in it they would wait for each other more than they work.
     const std::size_t portion = omp_get_max_threads() > 1 ? longest_portion : shortest_portion;
     damping_power_ = 0;
@@ -188,7 +189,14 @@ void Simulation::add_pair(const Pair& pair, const PairForces& forces,
 /// The second half of the kick of blocks whose sums are complete; then, unless this was the last step before
 /// a look around, the first half of their next step.
 void Simulation::finish_step(std::span<const std::uint32_t> some, double dt, bool is_last) {
-    constexpr std::size_t chunk = 64;
+    constexpr std::size_t chunk = 64, ahead = 16;
+    if (!some.empty()) {
+        const std::size_t next = some.back() + 1, count = some.size() + ahead;
+        blocks.fetch(next, count);
+        fetch_ahead(damping_force_, next, count);
+        fetch_ahead(damping_torque_, next, count);
+        for (const auto& load : own_loads_) load->fetch(next, count);
+    }
     for (std::size_t from = 0; from < some.size(); from += chunk) {
         const auto few = some.subspan(from, std::min(chunk, some.size() - from));
         for (const auto i : few) {
