@@ -78,6 +78,9 @@ void read_blocks(const common::SceneFile& file, Scene& scene);
 /// [wires] (scene_wires.cpp).
 void read_wires(const common::SceneFile& file, const common::SceneFile* layout, Scene& scene);
 
+/// [effects], once all else is read (scene_effects.cpp). `dry`: there is no water.
+void choose_effects(const common::SceneFile& file, bool dry, Scene& scene);
+
 /// A shape that comes with the program, or from the user's TOML file. Throws common::InputError.
 ShapeDescription find_shape(const std::string& name, const std::filesystem::path& scene_folder);
 /// Names of the shapes that come with the program.
