@@ -103,9 +103,11 @@ Forecast forecast(const Scene& scene) {
     // measured with checksums and fsync.
     result.seconds =
         0.02 + 1e-9 * nanoseconds * result.steps * cells + samples * cells * 16e-9 + windows * 4e-3;
-    // Measured from 1e3 to 1e6 cells; windows, the state to go on from and their copies in the file included.
+    // Measured from 1e3 to 1e6 cells; windows, the state to go on from and their copies in the file included;
+    // and the index of all samples for ParaView.
     result.memory =
-        22e6 + cells * (276.0 + (scene.has_breaking ? 43.0 : 0.0) + 27.0 * std::ceil(samples / windows));
+        22e6 + cells * (276.0 + (scene.has_breaking ? 43.0 : 0.0) + 27.0 * std::ceil(samples / windows)) +
+        2.3e3 * samples;
     forecast_error(scene, result);
     return result;
 }
@@ -124,8 +126,8 @@ void print_check(const common::SceneFile& file, const Scene& scene, bool all) {
                      common::run_time_text(expected.seconds), expected.nanoseconds_per_cell_step)},
         {"memory", fmt::format("about {:.0f} MB", 1e-6 * expected.memory)}};
     if (expected.relative_error > 0)
-        lines.push_back({"error", fmt::format("about {:.1g} of the wave height ({})", expected.relative_error,
-                                              expected.error_from)});
+        lines.push_back({"error", fmt::format("about {:.1g} of the wave height, of the cells ({})",
+                                              expected.relative_error, expected.error_from)});
     if (!expected.warning.empty()) lines.push_back({"warning", "the run will stop: " + expected.warning});
     if (!scene.sponge_note.empty()) lines.push_back({"note", scene.sponge_note});
     common::print_check_report(scene.effects, lines);

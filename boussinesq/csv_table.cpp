@@ -38,6 +38,7 @@ CsvTable read_csv(const std::filesystem::path& path) {
     CsvTable table;
     std::string line;
     for (std::size_t number = 1; std::getline(input, line); ++number) {
+        if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // byte order mark
         if (line.empty() || line[0] == '#' || line == "\r") continue;
         const auto words = split(line);
         if (table.names.empty()) {

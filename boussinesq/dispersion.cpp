@@ -6,10 +6,6 @@
 namespace boussinesq {
 namespace {
 
-/// Slope of a front, 30 degrees, from which it breaks (Tissier et al. 2012): steeper ones beside dry water
-/// are bores at any cell size. Without it the tip of a dam break ran the faster ahead the smaller the cells.
-constexpr double steepest_front = 0.577;
-
 constexpr double square(double x) {
     return x * x;
 }

@@ -26,6 +26,10 @@ namespace boussinesq {
 /// rounding, so that a face of 1:1 is not now mild, now steep.
 inline constexpr double steepest_slope = 1.0 + 1e-9;
 
+/// Slope of a front, 30 degrees, from which it breaks (Tissier et al. 2012): steeper ones beside dry water
+/// are bores at any cell size. Without it the tip of a dam break ran the faster ahead the smaller the cells.
+inline constexpr double steepest_front = 0.577;
+
 /// Fills off_diagonal, diagonal, right_side and elevation_slope (already times g/alpha) of a tile that is wet
 /// throughout.
 void assemble_wet_dispersion(Tile& tile, const FlowParameters& flow);

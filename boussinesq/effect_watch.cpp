@@ -15,17 +15,17 @@ namespace {
 constexpr std::int64_t interval = 16;
 
 /// Largest eta_t / sqrt(g h), and where (x, m).
-struct SteepestFront {
+struct FastestRise {
     double ratio, place;
 };
 
 /// Of the cells from `first` (padded) on.
-SteepestFront steepest_front(const Simulation& simulation, std::size_t first) {
+FastestRise fastest_rise(const Simulation& simulation, std::size_t first) {
     const double* h = simulation.state().depth.data();
     const double* q = simulation.state().discharge.data();
     const double dry = 10.0 * simulation.flow().parameters().dry_depth,
                  half = 0.5 / simulation.grid().spacing;
-    SteepestFront front{0.0, 0.0};
+    FastestRise front{0.0, 0.0};
     for (std::size_t k = first; k + 1 < ghost_cells + simulation.grid().cells; ++k) {
         if (h[k] <= dry) continue;
         const double ratio = (q[k - 1] - q[k + 1]) * half / std::sqrt(gravity * h[k]);
@@ -41,7 +41,7 @@ void EffectWatch::start_breaking(Simulation& simulation) {
     breaking_started_ = true;
 }
 
-std::optional<std::string> EffectWatch::look(Simulation& simulation) {
+std::optional<EffectChange> EffectWatch::look(Simulation& simulation) {
     if (!simulation.flow().terms().shoreline && simulation.shallowest() < shoreline_margin(scene_)) {
         if (!scene_.shoreline_is_automatic)
             throw common::RunError(
@@ -51,25 +51,29 @@ std::optional<std::string> EffectWatch::look(Simulation& simulation) {
         FlowTerms terms = simulation.flow().terms();
         terms.shoreline = shoreline_started_ = true;
         simulation.flow().set_terms(terms);
-        return fmt::format("t = {:.4g} s: the least depth fell to {:.3g} m: shoreline switched on",
-                           simulation.time(), simulation.shallowest());
+        return EffectChange{
+            "shoreline", fmt::format("t = {:.4g} s: the least depth fell to {:.3g} m: shoreline switched on",
+                                     simulation.time(), simulation.shallowest())};
     }
     if (!simulation.flow().terms().dispersion || scene_.has_breaking || breaking_started_ || breaking_told_ ||
         simulation.steps() % interval != 0)
         return {};
-    const SteepestFront front = steepest_front(simulation, first_breaking_cell(scene_));
+    const FastestRise front = fastest_rise(simulation, first_breaking_cell(scene_));
     if (front.ratio <= scene_.breaking.start) return {};
     if (scene_.breaking_is_automatic) {
         start_breaking(simulation);
-        return fmt::format(
-            "t = {:.4g} s: a front at x = {:.4g} m rises at {:.2f} sqrt(g h): breaking switched on",
-            simulation.time(), front.place, front.ratio);
+        return EffectChange{
+            "breaking",
+            fmt::format(
+                "t = {:.4g} s: a front at x = {:.4g} m rises at {:.2f} sqrt(g h): breaking switched on",
+                simulation.time(), front.place, front.ratio)};
     }
     breaking_told_ = true;
-    return fmt::format(
-        "t = {:.4g} s: a front at x = {:.4g} m rises at {:.2f} sqrt(g h) and would break, but "
-        "effects.breaking is \"off\"",
-        simulation.time(), front.place, front.ratio);
+    return EffectChange{
+        "",
+        fmt::format("t = {:.4g} s: a front at x = {:.4g} m rises at {:.2f} sqrt(g h) and would break, but "
+                    "effects.breaking is \"off\"",
+                    simulation.time(), front.place, front.ratio)};
 }
 
 void EffectWatch::save(common::DataFile& state) const {

@@ -10,12 +10,17 @@
 
 namespace boussinesq {
 
+struct EffectChange {
+    std::string effect;   ///< switched on; empty: none, the user's word is "off"
+    std::string message;  ///< in words
+};
+
 class EffectWatch {
  public:
     explicit EffectWatch(const Scene& scene) : scene_(scene) {}
-    /// After a step. Returns what changed, in words. Throws RunError where a cell dries and shoreline is
+    /// After a step. Returns what changed. Throws RunError where a cell dries and shoreline is
     /// "off".
-    std::optional<std::string> look(Simulation& simulation);
+    std::optional<EffectChange> look(Simulation& simulation);
     /// Switches on again what had been switched on before an interruption; call before Simulation::restore.
     void restore(Simulation& simulation, const common::DataFile& state);
     void save(common::DataFile& state) const;

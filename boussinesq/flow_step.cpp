@@ -54,10 +54,18 @@ void FlowStep::mark_hydrostatic_cells() {
     const std::size_t first = ghost_cells, last = ghost_cells + grid_.cells;  // inner cells [first, last)
     fixed_hydrostatic_.assign(grid_.padded(), 0);
     // The fourth-order values of the dispersive part reach two cells to either side: none of them may look
-    // across a step.
-    for (std::size_t k = first; k <= last; ++k)
-        if (std::abs(bed_.level(k) - bed_.level(k - 1)) > steepest_slope * grid_.spacing)
-            std::fill(&fixed_hydrostatic_[k - 2], &fixed_hydrostatic_[k + 2], 1);
+    // across a step. A high one takes the flow a quarter of its height to turn.
+    for (std::size_t k = first; k <= last; ++k) {
+        const double rise = std::abs(bed_.level(k) - bed_.level(k - 1));
+        if (rise <= steepest_slope * grid_.spacing) continue;
+        const std::size_t reach =
+            std::max<std::size_t>(2, static_cast<std::size_t>(0.25 * rise / grid_.spacing));
+        std::fill(fixed_hydrostatic_.data() + (k > reach ? k - reach : 0),
+                  fixed_hydrostatic_.data() + std::min(k + reach, fixed_hydrostatic_.size()), 1);
+    }
+    // On land water runs as a film: dispersion made energy of its tip.
+    for (std::size_t k = 0; k < fixed_hydrostatic_.size(); ++k)
+        if (bed_.level(k) >= 0.0) fixed_hydrostatic_[k] = 1;
     // At an open end long waves leave by their own characteristics; nothing carries short ones out.
     constexpr std::size_t outlet = 4;
     if (flow_.offshore == End::open)

@@ -43,7 +43,7 @@ int run(const common::StageCommand& command, const common::SceneFile& file, cons
         report.look();
         if (const auto change = watch.look(simulation)) {
             report.note(*change);
-            progress.say(*change);
+            progress.say(change->message);
         }
     };
 

@@ -38,13 +38,13 @@ double settled_time(const Scene& scene, double x) {
 
 /// More than this much energy over the flume came from nowhere, m4/s2 (over the density): what was there at
 /// the start, and a third for the vertical motion of waves of kh = 3, which is counted as in the classical
-/// equations; and incident waves that are reflected whole, g H^2 / 4 over every metre, four times
-/// over for what shoaling and groups gather.
+/// equations; and incident waves that are reflected whole, g H^2 / 4 over every metre, four times as high
+/// for what shoaling, groups and basins that resonate gather.
 double largest_energy_expected(const Scene& scene, double at_start) {
     const double length = scene.grid.shoreward_end() - scene.grid.offshore_end;
     const bool comes_in = scene.waves.kind != WaveKind::none && scene.waves.kind != WaveKind::solitary;
     return 4.0 / 3.0 * at_start +
-           (comes_in ? gravity * scene.waves.height * scene.waves.height * length : 0.0) +
+           (comes_in ? 4.0 * gravity * scene.waves.height * scene.waves.height * length : 0.0) +
            1e-12 * gravity * scene.waves.depth * scene.waves.depth * length;  // rounding of still water
 }
 
@@ -134,8 +134,22 @@ void Report::look() {
     if (simulation_.flow().terms().shoreline) waterline_.look(simulation_);
 }
 
-void Report::note(const std::string& message) {
-    record_.set_note(fmt::format("effect_watch.{}", notes_++), message);
+void Report::note(const EffectChange& change) {
+    notes_.push_back(change.message);
+    if (!change.effect.empty()) switched_on_ += (switched_on_.empty() ? "" : " ") + change.effect;
+    record_changes();
+}
+
+void Report::record_changes() {
+    for (std::size_t i = 0; i < notes_.size(); ++i)
+        record_.set_note(fmt::format("effect_watch.{}", i), notes_[i]);
+    std::vector<common::EffectRecord> effects = scene_.effects;
+    for (auto& effect : effects)
+        if (switched_on_.find(effect.name) != std::string::npos) {
+            effect.is_on = true;
+            effect.reason += "; switched on while running (notes.effect_watch)";
+        }
+    record_.set_effects(effects);
 }
 
 void Report::fill_figures() {
@@ -192,7 +206,6 @@ void Report::fill_invariants() {
                            .unit = "-",
                            .bound = 1.0 + 1e-9});
     const double energy = simulation_.energy();
-    largest_energy_ = std::max(largest_energy_, energy);
     record_.set_figure("energy.at_start", energy_at_start_);
     record_.set_figure("energy.largest", largest_energy_);
     record_.set_figure("energy.at_end", energy);
@@ -303,7 +316,11 @@ std::string Report::summary() const {
     return fmt::format("{} cells, {} steps", simulation_.grid().cells, simulation_.steps());
 }
 
-void Report::save(common::DataFile& state) const {
+void Report::save(common::DataFile& state) {
+    largest_energy_ = std::max(largest_energy_, simulation_.energy());
+    for (std::size_t i = 0; i < notes_.size(); ++i) state.attributes[fmt::format("note_{}", i)] = notes_[i];
+    state.attributes["notes"] = static_cast<std::int64_t>(notes_.size());
+    state.attributes["effects_switched_on"] = switched_on_;
     state.attributes["water_at_start"] = water_at_start_;
     state.attributes["energy_at_start"] = energy_at_start_;
     state.attributes["largest_energy"] = largest_energy_;
@@ -316,6 +333,10 @@ void Report::restore(const common::DataFile& state) {
     energy_at_start_ = state.number("energy_at_start");
     largest_energy_ = state.number("largest_energy");
     first_step_ = simulation_.steps();
+    for (std::int64_t i = 0; i < state.integer("notes"); ++i)
+        notes_.push_back(state.text(fmt::format("note_{}", i)));
+    switched_on_ = state.text("effects_switched_on");
+    record_changes();
     envelope_.restore(state);
     waterline_.restore(state);
 }

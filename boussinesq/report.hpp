@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "boussinesq/effect_watch.hpp"
 #include "boussinesq/envelope.hpp"
 #include "boussinesq/gauge_record.hpp"
 #include "boussinesq/scene.hpp"
@@ -29,17 +30,18 @@ class Report {
     /// After every step.
     void look();
     /// Something the user should know; also into run.json.
-    void note(const std::string& message);
+    void note(const EffectChange& change);
     void window_done(std::int64_t windows);
     void end(const std::string& status, const std::string& message, const std::vector<GaugeRecord>& gauges);
     /// One line for the terminal.
     std::string summary() const;
 
     /// Adds what this object carries to the state to go on from, and takes it back.
-    void save(common::DataFile& state) const;
+    void save(common::DataFile& state);
     void restore(const common::DataFile& state);
 
  private:
+    void record_changes();
     void fill_figures();
     void fill_invariants();
     void fill_statistics(const std::vector<GaugeRecord>& gauges);
@@ -51,7 +53,8 @@ class Report {
     Waterline waterline_;
     double water_at_start_, energy_at_start_, largest_energy_;
     std::int64_t first_step_ = 0;
-    int notes_ = 0;
+    std::vector<std::string> notes_;
+    std::string switched_on_;  ///< effects, by name, with blanks between
 };
 
 }  // namespace boussinesq

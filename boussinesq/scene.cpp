@@ -34,7 +34,11 @@ void read_grid_and_ends(const common::SceneFile& file, common::Accuracy accuracy
     const double cells_per_length = accuracy == common::Accuracy::draft      ? 40
                                     : accuracy == common::Accuracy::standard ? 75
                                                                              : 150;
-    const double scale = waves.length > 0 ? waves.length : 5.0 * std::max(waves.depth, 0.01 * length);
+    double scale = waves.length > 0 ? waves.length : 5.0 * std::max(waves.depth, 0.01 * length);
+    // Crests of long waves are those of solitary ones: twice their width, 2 / K, counts as the length.
+    if (waves.kind == WaveKind::regular && waves.length > 0)
+        scale = std::min(scale, 4.0 * std::sqrt(4.0 * waves.depth * waves.depth *
+                                                (waves.depth + waves.height) / (3.0 * waves.height)));
     const double proposed = std::min(scale / cells_per_length, length / 20.0);
     const double wish = section.number("spacing", "m", "cell size (rounded so that cells fill the flume)",
                                        Range::positive(), proposed);

@@ -190,6 +190,13 @@ void read_series(const Section& section, const Scene& scene, const LinearDispers
         waves.period = 0;
         return;
     }
+    for (std::size_t i = 0; i < intervals.size(); ++i)
+        if (intervals[i] > 1.5 * usual && intervals[i] > 0.25 * waves.period) {
+            section.problem(
+                "file", fmt::format("{}:{}: gap of {:.4g} s in waves of {:.3g} s on average", path.string(),
+                                    table.lines[i + 1], intervals[i], waves.period));
+            return;
+        }
     check_record(section, path, table, waves, usual, mean, crossings);
     const double begin = scene.bed.front()[0], end = scene.bed.back()[0];
     if (waves.position < begin || waves.position > end)

@@ -139,13 +139,22 @@ void XdmfIndex::add(const Window& window) {
 }
 
 std::string XdmfIndex::text() const {
+    // As long as the run: no second copy of it, and no room to grow into.
+    std::size_t length = 256;
+    for (const auto& [name, windows] : grids_) {
+        length += 128;
+        for (const auto& [index, grids] : windows) length += grids.size();
+    }
     std::string body;
+    body.reserve(length);
+    body += "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"><Domain>\n";
     for (const auto& [name, windows] : grids_) {
         body += fmt::format("<Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Temporal\">\n", name);
         for (const auto& [index, grids] : windows) body += grids;
         body += "</Grid>\n";
     }
-    return "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"><Domain>\n" + body + "</Domain></Xdmf>\n";
+    body += "</Domain></Xdmf>\n";
+    return body;
 }
 
 void XdmfIndex::write(const std::filesystem::path& folder, const std::string& stage) const {

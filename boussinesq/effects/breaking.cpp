@@ -27,6 +27,15 @@ void BoreCells::add(std::size_t k, double h) {
     std::fill(cells_.data() + from, cells_.data() + to + 1, static_cast<unsigned char>(1));
 }
 
+bool BoreCells::is_steep(const WaveState& state, std::size_t k) const {
+    // Over half a depth: ripples of a few fine cells are no front.
+    const auto half = std::max<std::size_t>(1, static_cast<std::size_t>(0.25 * state.depth[k] / spacing_));
+    const std::size_t offshore = k > half ? k - half : 0, shoreward = std::min(k + half, cells_.size() - 1);
+    const double fall =
+        state.depth[offshore] + bed_.level(offshore) - state.depth[shoreward] - bed_.level(shoreward);
+    return std::abs(fall) > steepest_front * spacing_ * static_cast<double>(shoreward - offshore);
+}
+
 bool BoreCells::sustains(const WaveState& state, std::size_t k) const {
     constexpr double least_depth_ratio = 1.4;  // (sqrt(1 + 8 Fr^2) - 1) / 2 at Fr = 1.3
     const auto level = [&](std::size_t i) { return state.depth[i] + bed_.level(i); };
@@ -82,12 +91,17 @@ void EddyViscosity::find_fronts(const WaveState& state, double t, double step) {
         const double age = std::max(age_[k], std::max(age_[k - 1], age_[k + 1]));
         const double share = std::min(age * speed / (constants_.transition * h[k]), 1.0);
         const double threshold = (constants_.start + share * (constants_.end - constants_.start)) * speed;
+        const bool is_steep = constants_.becomes_bore && bores_.is_steep(state, k);
+        if (is_steep && bores_.sustains(state, k)) bores_.add(k, h[k]);
+        // A front that viscosity has just laid lower than its threshold is still the same front.
+        if (age > 0.0) new_age_[k] = age + step;
         if (rise <= threshold) continue;
         new_age_[k] = age + step;
         viscosity_[k] =
             std::min(rise / threshold - 1.0, 1.0) * constants_.mixing * constants_.mixing * h[k] * rise;
         if (age == 0.0) note(record_, t, grid_.centre(k - ghost_cells));
-        if (constants_.becomes_bore && share == 1.0 && bores_.sustains(state, k)) bores_.add(k, h[k]);
+        if (constants_.becomes_bore && share == 1.0 && !is_steep && bores_.sustains(state, k))
+            bores_.add(k, h[k]);
         any_ = true;
     }
     std::swap(age_, new_age_);

@@ -7,9 +7,10 @@
 ///   nu = B mixing^2 h eta_t, B = clamp(eta_t / eta_t* - 1, 0, 1); eta_t* falls from `start` to `end` times
 ///   sqrt(g h) over 5 sqrt(h/g), counted from when that front began to break (the age travels with the
 ///   front). Solved implicitly: first order in time, stable for any step; conserves water and momentum.
-///   With `becomes_bore` a front that has broken for that long runs on as a shallow-water bore: by then
-///   viscosity has smoothed it, so that the change does not disturb the waves around it, and a bore loses
-///   what its jump asks for, which viscosity in a dispersive front does not reach (README).
+///   With `becomes_bore` a front that has broken for that long, or stands steeper than 30 degrees (Tissier et
+///   al. 2012), runs on as a shallow-water bore: by then viscosity has smoothed it, so that the change does
+///   not disturb the waves around it, and a bore loses what its jump asks for, which viscosity in a
+///   dispersive front does not reach (README).
 /// - HydrostaticBores (Tonelli and Petti 2009, Tissier et al. 2012): the front runs as a bore, without
 ///   dispersion, from eta_t > 0.6 sqrt(g h) until below 0.3.
 ///
@@ -49,6 +50,8 @@ class BoreCells {
     void clear();
     /// The whole width of a front at cell k (padded) in water of depth h: a depth to both sides.
     void add(std::size_t k, double h);
+    /// Whether the surface stands steeper around cell k than a front that has not broken.
+    bool is_steep(const WaveState& state, std::size_t k) const;
     /// Whether the front through cell k is high enough to be a bore.
     bool sustains(const WaveState& state, std::size_t k) const;
     /// Padded; non-zero: hydrostatic.

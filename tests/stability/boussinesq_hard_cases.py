@@ -83,7 +83,7 @@ def solitary_wave_of_three_fifths_runs_up_a_beach(folder):
 
 @test
 def waves_breaking_on_one_in_ten(folder):
-    for breaking in ("eddy_viscosity", "hydrostatic"):
+    for breaking in ("viscous_bore", "eddy_viscosity", "hydrostatic"):
         figures = run_scene(folder, flume([(0, -0.6), (15, -0.6), (24, 0.3)], 80.0, waves='kind = "regular"\nheight = 0.18\nperiod = 2.0',
                                           more=f'spacing = 0.04\nbreaking = "{breaking}"', gauges="toe = 14.0"), name=breaking)
         envelope = run_folder.read_file(folder / breaking / "envelope.h5")[1]
@@ -92,6 +92,54 @@ def waves_breaking_on_one_in_ten(folder):
         check_below(f"{breaking}: H/d in the surf zone", (envelope["/wave_height"] / numpy.maximum(depth + envelope["/mean_surface"], 1e-9))[surf].max(), 1.6, "",
                     "1.2-1.3 measured on slopes this steep; twice the flat-bed limit is no wave")
         check_between(f"{breaking}: run-up", figures["run_up"]["level"], 0.05, 0.40, "m", "Hunt (1959): R = 0.1 sqrt(H L0) = 0.1 sqrt(0.18 * 6.2) = 0.11 m and set-up 0.04 m on rough slopes; smooth ones twice")
+
+
+@test
+def waves_breaking_on_a_reef_whatever_the_cells_and_steps(folder):
+    # Breaks at the edge, runs on as a bore: neither small cells nor long steps may end it.
+    heights = {}
+    for spacing, courant in ((0.05, 0.8), (0.025, 0.8), (0.0125, 0.8), (0.05, 0.2)):
+        name = f"dx{spacing}c{courant}"
+        run_scene(folder, flume([(0, -0.8), (12, -0.8), (18, -0.35), (26, -0.35)], 26.0, waves='kind = "regular"\nheight = 0.25\nperiod = 2.0', window=2.0,
+                                more=f"spacing = {spacing}\ncourant = {courant}\noutput_interval = 0.1", effects='shoreline = "off"'), name=name)
+        envelope = run_folder.read_file(folder / name / "envelope.h5")[1]
+        time, elevation = run_folder.read_series(folder / name, "/surface_elevation")
+        heights[name] = numpy.interp(numpy.arange(20, 23), envelope["/x"], numpy.ptp(elevation[time > 20], axis=0))
+        print(f"    {name}: heights on the reef {numpy.round(heights[name], 3)} m")
+    for name, height in heights.items():
+        check_below(f"{name}: heights on the reef against dx0.05c0.8", abs(height / heights["dx0.05c0.8"] - 1).max(), 0.15, "", "bores that wander from wave to wave; a breaker that ends too soon is 40 % higher")
+
+
+@test
+def reef_edges_and_wet_dam_breaks_at_small_cells(folder):
+    for height, spacing, breaking in ((0.2, 0.01, "viscous_bore"), (0.2, 0.02, "eddy_viscosity"), (0.2, 0.01, "hydrostatic")):
+        figures = run_scene(folder, flume([(0, -0.6), (13, -0.6), (13.01, -0.1), (20, -0.1), (22, 0.3)], 24.0, waves=f'kind = "regular"\nheight = {height}\nperiod = 2.0', window=2.0,
+                                          more=f'spacing = {spacing}\nbreaking = "{breaking}"\noutput_interval = 0.5'), name=f"reef{spacing}{breaking}")
+        check_between(f"dx = {spacing}, {breaking}: run-up behind the reef", figures["run_up"]["level"], 0.0, 0.2 * numpy.sqrt(height * 6.2), "m", "Hunt's for the wave that has not broken on 1:5: tan b sqrt(H L0)")
+    x = numpy.linspace(0, 20, 2001)
+    for high, spacing in ((0.4, 0.05), (1.0, 0.05), (1.5, 0.02)):
+        file = write_initial(folder, x, numpy.where(x < 10, high - 0.2, 0.0), name="wet.csv")
+        name = f"wet{high}"
+        run_scene(folder, flume([(0, -0.2), (20, -0.2)], 1.0, initial=file, window=0.5, more=f'spacing = {spacing}\noutput_interval = 0.1\noffshore = "wall"\nshoreward = "wall"'), name=name)
+        elevation = run_folder.read_series(folder / name, "/surface_elevation")[1][-1]
+        place = run_folder.static(folder / name, "/x")
+        front = place[elevation > 0.05 * (high - 0.2)][-1] - 10
+        # Stoker: the bore's speed from the two jump conditions and the rarefaction.
+        depths = numpy.linspace(0.2 + 1e-9, high, 200001)
+        speed_behind = (depths - 0.2) * numpy.sqrt(9.81 * (depths + 0.2) / (2 * depths * 0.2))
+        middle = depths[numpy.argmin(abs(speed_behind - 2 * (numpy.sqrt(9.81 * high) - numpy.sqrt(9.81 * depths))))]
+        bore = numpy.sqrt(9.81 * middle * (middle + 0.2) / (2 * 0.2))
+        check_between(f"{high} m over 0.2 m: bore's way over Stoker's", front / bore, 0.95, 1.08, "", "dispersion makes it undular ahead")
+
+
+@test
+def film_on_a_dry_shelf_gains_no_energy(folder):
+    for spacing in (0.05, 0.025):
+        figures = run_scene(folder, flume([(0, -1), (20, -1), (25, 0.1), (45, 0.1)], 5.0, waves='kind = "solitary"\nheight = 0.5\nposition = 10.0', window=0.5,
+                                          more=f'spacing = {spacing}\nshoreward = "wall"\noutput_interval = 0.1'), name=f"film{spacing}")
+        speed = abs(run_folder.read_series(folder / f"film{spacing}", "/velocity")[1]).max()
+        check_below(f"dx = {spacing}: energy gained", figures["energy"]["largest"] / figures["energy"]["at_start"] - 1, 0.01, "", "kinetic energy of vertical motion is counted as in the classical equations")
+        check_below(f"dx = {spacing}: fastest film", speed, 2 * numpy.sqrt(9.81 * 1.5), "m/s", "twice the long-wave speed of the crest's depth: Ritter's tip")
 
 
 @test
@@ -139,7 +187,7 @@ def full_standing_wave_at_a_wall(folder):
 def steep_structure_face(folder):
     # The paper's flume with a face of 1:1.5 that the waves run up and may not pass: 60 s with either breaking model and without.
     bed = [(0, -0.8), (15, -0.8), (23, -0.4), (39, -0.4), (40.2, 0.4), (42, 0.4)]
-    for name, options in (("eddy_viscosity", ()), ("hydrostatic", ("--set", "boussinesq.breaking=hydrostatic")), ("none", ("--set", "effects.breaking=off"))):
+    for name, options in (("viscous_bore", ()), ("eddy_viscosity", ("--set", "boussinesq.breaking=eddy_viscosity")), ("hydrostatic", ("--set", "boussinesq.breaking=hydrostatic")), ("none", ("--set", "effects.breaking=off"))):
         figures = run_scene(folder, flume(bed, 60.0, waves='kind = "regular"\nheight = 0.168\nperiod = 1.65', more="spacing = 0.05", gauges='"H5-1" = 30.0'), *options, name=name)
         check_between(f"{name}: run-up over the height at the toe", figures["run_up"]["level"] / 0.17, 0.8, 2.8, "", "1.0-2.3 measured on smooth 1:1.5 slopes (Hunt; Ahrens); walls twice")
         check_between(f"{name}: reflection", figures["gauges"]["H5-1"]["reflection_coefficient"], 0.3, 1.0, "", "0.5-0.9 for surf similarity of 3-4 (Seelig); not more than comes in")

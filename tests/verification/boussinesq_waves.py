@@ -97,7 +97,7 @@ def incident_height_does_not_depend_on_the_length_of_the_record(folder):
 @test
 def similar_scenes_give_similar_waves(folder):
     # Froude similarity: the equations know no length of their own, so neither may the code. A beach with breaking waves.
-    for breaking in ("eddy_viscosity", "hydrostatic"):
+    for breaking in ("viscous_bore", "hydrostatic"):
         found = {}
         for scale in (0.1, 1.0, 100.0):
             period = 1.65 * scale ** 0.5
