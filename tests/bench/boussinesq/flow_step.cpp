@@ -38,7 +38,8 @@ void step(benchmark::State& state, int choice) {
     }
     std::vector<std::unique_ptr<StepEffect>> effects;
     if (choice & breaking)
-        effects.push_back(std::make_unique<EddyViscosity>(grid, flow, EddyViscosityConstants{}));
+        effects.push_back(
+            std::make_unique<EddyViscosity>(grid, bed, flow, ghost_cells + 1, EddyViscosityConstants{}));
     if (choice & friction) effects.push_back(std::make_unique<Friction>(grid, 0.005, false, flow.dry_depth));
     Simulation simulation(grid, std::move(bed), flow,
                           {.dispersion = (choice & dispersion) != 0, .shoreline = (choice & shoreline) != 0},
