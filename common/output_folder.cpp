@@ -28,8 +28,9 @@ void remove_files(const fs::path& folder, const Test& test) {
         if (entry.is_regular_file() && test(entry.path().filename().string())) fs::remove(entry.path());
 }
 
-/// True for a finished run of the same scene and input whose windows are all there and whole.
-bool is_finished(const fs::path& folder, const RunIdentity& identity) {
+/// True for a finished run of the same scene and input whose windows are all there and whole. `is_damaged`:
+/// they would be, but for a fault.
+bool is_finished(const fs::path& folder, const RunIdentity& identity, bool& is_damaged) {
     const UpstreamStatus status = read_upstream_status(folder);
     if (status.state != UpstreamStatus::State::done) return false;
     if (status.windows == 0) return false;
@@ -42,6 +43,7 @@ bool is_finished(const fs::path& folder, const RunIdentity& identity) {
     } catch (const InputError& fault) {
         fmt::print(stderr, "{}: {}: the finished run is damaged and is computed again\n", identity.stage,
                    fault.what());
+        is_damaged = true;
         return false;
     }
     return true;
@@ -77,12 +79,13 @@ OutputFolder::OutputFolder(fs::path folder, RunIdentity identity, bool resume)
                                      stage, identity_.stage));
     remove_files(folder_, is_temporary);
 
-    if (is_finished(folder_, identity_)) {
+    bool is_damaged = false;
+    if (is_finished(folder_, identity_, is_damaged)) {
         start_ = Start::nothing_to_do;
         return;
     }
     const fs::path state = folder_ / "state.h5";
-    if (resume && fs::exists(state)) {
+    if (resume && !is_damaged && fs::exists(state)) {
         DataFile saved = read_data_file(state);
         if (!belongs_to(saved, identity_))
             throw InputError(fmt::format(

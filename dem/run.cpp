@@ -130,6 +130,11 @@ struct Entry {
 
 Entry enter(const common::StageCommand& command, const Scene& scene, FlowSource& flow) {
     Entry entry{};
+    if (!command.from.empty() && std::filesystem::weakly_canonical(command.from).parent_path() ==
+                                     std::filesystem::weakly_canonical(command.out))
+        throw common::InputError(
+            fmt::format("--out {}: the run that --from reads would be replaced; give another folder",
+                        command.out.string()));
     if (!command.from.empty()) entry.earlier = start_from(command.from, scene);
     entry.begin =
         scene.restart_clock.value_or(entry.earlier && entry.earlier->t ? *entry.earlier->t : flow.begin());

@@ -81,6 +81,7 @@ void Simulation::advance(double target) {
             if (sleeping_) {
                 sum_all_forces();  // of those asleep too; contacts are those of the last step
                 if (sample_doubtful(begin + dt * static_cast<double>(k))) sum_all_forces();
+                tension_at_look_ = wires.tension;
                 bool changed = false;
                 dissipated_ += sleeping_->look(blocks, time_, changed);
                 if (changed) find_awake();
@@ -105,9 +106,55 @@ void Simulation::step(double dt, double t, bool is_first, bool is_last) {
     time_ = t;
     if (pair_list_.update()) find_active();
     for (const auto& load : link_loads_) load->add(blocks, awake_, is_awake_, time_);
+    if (sleeping_) note_jerks();
     add_contacts(dt, is_last);
     ++steps_;
     awake_block_steps_ += awake_.size();
+    if (!disturbed_.empty()) wake_disturbed(dt, is_last);
+}
+
+/// Sleepers that a wire pulls at otherwise than at the last look.
+void Simulation::note_jerks() {
+    for (const auto k : wires_to_sleepers_) {
+        const double change = std::abs(wires.tension[k] - tension_at_look_[k]);
+        for (const auto i : {wires.block_a[k], wires.block_b[k]})
+            if (sleeping_->is_asleep(i) && change > sleeping_->wake_force(i)) disturbed_.push_back(i);
+    }
+}
+
+/// Sleepers that a contact pushes otherwise than at the last look; their sums of that look take up the
+/// change.
+void Simulation::note_hit(const Pair& pair, const PairForces& now, const PairForces& at_look) {
+    const bool is_between_blocks = pair_list_.is_block(pair.partner);
+    const bool is_on_block = sleeping_->is_asleep(pair.block),
+               is_on_partner = is_between_blocks && sleeping_->is_asleep(pair.partner);
+    if (!is_on_block && !is_on_partner) return;
+    PairForces change = now;
+    change.force -= at_look.force;
+    change.torque_on_block -= at_look.torque_on_block;
+    change.damping_force -= at_look.damping_force;
+    change.damping_torque -= at_look.damping_torque;
+    const auto is_hit = [&](std::uint32_t i) { return change.force.norm() > sleeping_->wake_force(i); };
+    const bool wakes_block = is_on_block && is_hit(pair.block),
+               wakes_partner = is_on_partner && is_hit(pair.partner);
+    if (wakes_block) disturbed_.push_back(pair.block);
+    if (wakes_partner) disturbed_.push_back(pair.partner);
+    add_pair(pair, change, wakes_block, wakes_partner);
+}
+
+/// They end this step with the others and take part from the next one on.
+void Simulation::wake_disturbed(double dt, bool is_last) {
+    std::sort(disturbed_.begin(), disturbed_.end());
+    disturbed_.erase(std::unique(disturbed_.begin(), disturbed_.end()), disturbed_.end());
+    for (const auto i : disturbed_) {
+        sleeping_->wake(blocks, i, time_);
+        kick_half(blocks, i, 0.5 * dt);
+        blocks.update_angular_velocity(i);
+        dissipated_ -= dt * damping_power_of(i);
+    }
+    find_awake();
+    if (!is_last) begin_step(disturbed_, dt, time_ + dt);
+    disturbed_.clear();
 }
 
 /// Blocks move, and the sums of what acts on them at t begin with all but contacts and links.
@@ -152,7 +199,9 @@ void Simulation::add_contacts(double dt, bool is_last) {
             const Pair& pair = pair_list_.pairs()[some[k]];
             if (pair.contacts == 0) continue;
             const PairForces& forces = portion_[k];
-            add_pair(pair, forces, is_awake_);
+            if (sleeping_) note_hit(pair, forces, pair_list_.last(some[k]));
+            add_pair(pair, forces, is_awake_[pair.block],
+                     pair_list_.is_block(pair.partner) && is_awake_[pair.partner]);
             dissipated_ += forces.dissipated;
             if (forces.largest_overlap > rules_.overlap_noted || forces.largest_overlap > largest_overlap_)
                 note_overlap(pair, forces.largest_overlap);
@@ -170,15 +219,19 @@ void Simulation::add_contacts(double dt, bool is_last) {
     dissipated_ -= dt * damping_power_;
 }
 
-void Simulation::add_pair(const Pair& pair, const PairForces& forces,
-                          const std::vector<std::uint8_t>& is_wanted) {
-    if (is_wanted[pair.block]) {
+double Simulation::damping_power_of(std::uint32_t block) const {
+    return damping_force_[block].dot(blocks.velocity[block]) +
+           damping_torque_[block].dot(blocks.angular_velocity[block]);
+}
+
+void Simulation::add_pair(const Pair& pair, const PairForces& forces, bool to_block, bool to_partner) {
+    if (to_block) {
         blocks.force[pair.block] += forces.force;
         blocks.torque[pair.block] += forces.torque_on_block;
         damping_force_[pair.block] += forces.damping_force;
         damping_torque_[pair.block] += forces.damping_torque;
     }
-    if (pair_list_.is_block(pair.partner) && is_wanted[pair.partner]) {
+    if (to_partner) {
         blocks.force[pair.partner] -= forces.force;
         blocks.torque[pair.partner] += forces.offset.cross(forces.force) - forces.torque_on_block;
         damping_force_[pair.partner] -= forces.damping_force;
@@ -204,8 +257,7 @@ void Simulation::finish_step(std::span<const std::uint32_t> some, double dt, boo
             blocks.update_angular_velocity(i);
             // The mean velocity of the two kicks around this instant makes this the very energy that the
             // dashpots take.
-            damping_power_ += damping_force_[i].dot(blocks.velocity[i]) +
-                              damping_torque_[i].dot(blocks.angular_velocity[i]);
+            damping_power_ += damping_power_of(i);
         }
         for (const auto& load : own_loads_) load->account(blocks, few, dt);
         if (!is_last) begin_step(few, dt, time_ + dt);
@@ -221,7 +273,9 @@ void Simulation::sum_all_forces() {
     for (const auto& load : link_loads_) load->add(blocks, movable_, is_movable, time_);
     for (std::size_t k = 0; k < pair_list_.pairs().size(); ++k) {
         const Pair& pair = pair_list_.pairs()[k];
-        if (pair.contacts > 0) add_pair(pair, pair_list_.last(k), is_movable);
+        if (pair.contacts > 0)
+            add_pair(pair, pair_list_.last(k), is_movable[pair.block],
+                     pair_list_.is_block(pair.partner) && is_movable[pair.partner]);
     }
 }
 
@@ -284,6 +338,13 @@ void Simulation::find_awake() {
     }
     for (const auto& load : own_loads_) load->awake_changed(is_awake_);
     for (const auto& load : link_loads_) load->awake_changed(is_awake_);
+    wires_to_sleepers_.clear();
+    if (sleeping_)
+        for (std::uint32_t k = 0; k < wires.size(); ++k) {
+            const auto a = wires.block_a[k], b = wires.block_b[k];
+            if ((is_awake_[a] && sleeping_->is_asleep(b)) || (is_awake_[b] && sleeping_->is_asleep(a)))
+                wires_to_sleepers_.push_back(k);
+        }
     find_active();
 }
 

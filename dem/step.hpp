@@ -90,7 +90,11 @@ class Simulation {
     void begin_step(std::span<const std::uint32_t> some, double dt, double t);
     void begin_sums(std::span<const std::uint32_t> of);
     void add_contacts(double dt, bool is_last);
-    void add_pair(const Pair& pair, const PairForces& forces, const std::vector<std::uint8_t>& is_wanted);
+    void add_pair(const Pair& pair, const PairForces& forces, bool to_block, bool to_partner);
+    double damping_power_of(std::uint32_t block) const;
+    void note_jerks();
+    void note_hit(const Pair& pair, const PairForces& now, const PairForces& at_look);
+    void wake_disturbed(double dt, bool is_last);
     void finish_step(std::span<const std::uint32_t> some, double dt, bool is_last);
     void sum_all_forces();
     bool sample_doubtful(double t);
@@ -108,7 +112,10 @@ class Simulation {
     std::vector<std::unique_ptr<Load>> link_loads_;  ///< act between blocks
     FluidLoads* water_ = nullptr;
     std::unique_ptr<Sleeping> sleeping_;
-    std::vector<std::uint32_t> movable_, awake_;  ///< blocks
+    std::vector<std::uint32_t> movable_, awake_;    ///< blocks
+    std::vector<std::uint32_t> disturbed_;          ///< sleepers to wake at the end of the step at hand
+    std::vector<std::uint32_t> wires_to_sleepers_;  ///< with a block awake at the other end
+    std::vector<double> tension_at_look_;           ///< of all wires, N
     std::vector<std::uint8_t> is_awake_;
     std::vector<Vector> damping_force_, damping_torque_;  ///< the dashpots' share of the sums
     std::vector<std::uint32_t> active_;                   ///< pairs that may touch, with a block awake

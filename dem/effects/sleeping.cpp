@@ -26,6 +26,11 @@ void Sleeping::drop_anchor(const Blocks& blocks, std::size_t block, double t) {
     since_[block] = t;
 }
 
+void Sleeping::wake(const Blocks& blocks, std::size_t block, double t) {
+    asleep_[block] = 0;
+    drop_anchor(blocks, block, t);
+}
+
 double Sleeping::load_change(const Blocks& blocks, std::size_t block) const {
     return (blocks.force[block] - force_[block]).norm() +
            (blocks.torque[block] - torque_[block]).norm() / blocks.shape_of(block).radius;
@@ -43,8 +48,7 @@ double Sleeping::look(Blocks& blocks, double t, bool& changed) {
         if (blocks.is_fixed[i]) continue;
         if (asleep_[i]) {
             if (load_changed(blocks, i, rules_.wake_load)) {
-                asleep_[i] = 0;
-                drop_anchor(blocks, i, t);
+                wake(blocks, i, t);
                 changed = true;
             }
             continue;

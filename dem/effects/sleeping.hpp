@@ -2,7 +2,8 @@
 ///
 /// A block falls asleep when no point of it has moved more than a small distance over a while, and the load
 /// on it has hardly changed. It wakes when the sum of all that acts on it (water, wires, neighbours that
-/// still move) has changed by more than a stated share of its weight: displacement and load are judged, never
+/// still move) has changed by more than a stated share of its weight, or at once where one contact or wire of
+/// a block that moves has, since a hit is over before the next look: displacement and load are judged, never
 /// speed alone.
 #pragma once
 
@@ -30,6 +31,10 @@ class Sleeping {
 
     /// Whether the next look may wake this one if its load differs by `uncertainty` (N) from its present sum.
     bool may_wake(const Blocks& blocks, std::size_t block, double uncertainty) const;
+    /// Wakes one block now.
+    void wake(const Blocks& blocks, std::size_t block, double t);
+    /// Change of a force that wakes it, N.
+    double wake_force(std::size_t block) const { return rules_.wake_load * weight_[block]; }
     bool is_asleep(std::size_t block) const { return asleep_[block] != 0; }
     std::size_t count() const;
     /// Everybody up (blocks were moved by hand).

@@ -37,6 +37,37 @@ for name, effects in (("without sleeping", '[effects]\nsleeping = "off"'), ("wit
     check.true(f"stack {name} runs", r.status == 0, r.message)
     check.below(f"creep of a stack of 4 over 60 s, {name}", np.abs(x[-1] - x[1]).max() / d, 1e-3, "d")
 
+# A block slides into one that sleeps: the same motion, to the last digits, as with nobody asleep. Contacts last milliseconds.
+def hit(speed, accuracy, sleeping):
+    begin = -(0.05 + 0.2 * speed)
+    head = f'accuracy = "{accuracy}"\n'
+    return run(head + scene(end=0.5, window=0.1, keys="dry = true\nfriction = 0.0", output=0.02,
+                            rest=block(0, 0, 0.0119995) + block(begin, 0, 0.014, more=f"velocity = [{speed}, 0.0, 0.0]") + f'[dem.packing]\nmethod = "none"\n[effects]\nsleeping = "{sleeping}"'))
+
+
+for accuracy in ("draft", "standard"):
+    for speed in (0.2, 1.0):
+        on, off = hit(speed, accuracy, "on"), hit(speed, accuracy, "off")
+        check.true(f"{accuracy}: a sleeper is hit at {speed} m/s: both run", on.status == 0 and off.status == 0, on.message + off.message)
+        check.true(f"{accuracy}: it slept before", on.series("/blocks/asleep").max() >= 1)
+        check.below(f"{accuracy}, {speed} m/s: velocities after the hit, against nobody asleep", np.abs(on.series("/blocks/velocity")[-1] - off.series("/blocks/velocity")[-1]).max() / speed, 1e-6)
+        check.below(f"{accuracy}, {speed} m/s: momentum lost", abs(on.series("/blocks/velocity")[-1][:, 0].sum() / speed - 1), 1e-6)
+
+
+# Wires jerk at a sleeper: it comes along, and as many break.
+def jerk(speed, psi, sleeping):
+    wires = f"[wires]\npsi = {psi}\n[[wires.link]]\nblocks = [1, 2]\nslack = 0.4\n"
+    return run(scene(end=0.6, window=0.1, keys="dry = true\nfriction = 0.1", output=0.02,
+                     rest=block(0, 0, 0.0119995) + block(0.06, 0, 0.0119995, more=f"velocity = [{speed}, 0.0, 0.0]") + wires + f'[dem.packing]\nmethod = "none"\n[effects]\nsleeping = "{sleeping}"'))
+
+
+for speed, psi in ((3.0, 0.3), (1.5, 0.1)):
+    on, off = jerk(speed, psi, "on"), jerk(speed, psi, "off")
+    check.true(f"wires jerk at {speed} m/s: both run", on.status == 0 and off.status == 0, on.message + off.message)
+    check.true(f"{speed} m/s: as many wires break", (on.series("/wires/intact")[-1] == off.series("/wires/intact")[-1]).all())
+    way = [r.series("/blocks/position")[-1][0, 0] for r in (on, off)]
+    check.below(f"{speed} m/s: the sleeper's way ({1e3 * way[0]:.1f} mm) against nobody asleep ({1e3 * way[1]:.1f} mm)", abs(way[0] / way[1] - 1), 0.05)
+
 # Blocks that start inside each other, as deep as the scene reader allows: pushed apart without an explosion.
 r = run(scene(end=1.0, keys="dry = true", rest=block(0, 0, 0.0119) + block(0.0, 0.0, 0.0345)))
 v = r.series("/blocks/velocity")
