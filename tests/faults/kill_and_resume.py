@@ -44,6 +44,17 @@ def count(folder):
 
 
 @test
+def a_damaged_finished_run_is_computed_again(folder):
+    whole = whole_chain(folder)
+    out = folder / "boussinesq"
+    shutil.copytree(whole / "waves", out)
+    path = run_folder.window_paths(out)[2]
+    path.write_bytes(path.read_bytes()[:1000])
+    run("boussinesq", "run", SCENE, *SHORT, "--out", out, "--resume").expect_done()
+    check_same_bytes(out, whole / "waves")
+
+
+@test
 def killed_stages_go_on_to_the_same_bytes(folder):
     whole = whole_chain(folder)
     for program, arguments, reference in stages(whole, folder):

@@ -101,4 +101,11 @@ check.true("links were added", changed.figure("wires.count") == 2 * whole.figure
 # Slack: wires longer than the packed distance carry nothing until the slack is used up.
 slack = run(SCENE.replace("rows = [3]", "rows = [3]\nslack = 0.05"), "--flow", flow)
 check.true("slack wires never pull here", slack.status == 0 and slack.figure("wires.largest_tension") == 0.0, slack.message)
+
+# A run must not replace the one it starts from.
+before = whole.windows()
+own = subprocess.run([DEM, "run", os.path.join(os.path.dirname(whole.folder), "scene.toml"), "--from", os.path.join(whole.folder, "window_000003.h5"), "--flow", flow, "--out", whole.folder],
+                     capture_output=True, text=True)
+check.true("--from inside --out is refused", own.returncode == 2 and "would be replaced" in own.stderr, own.stderr)
+check.true("and nothing is lost", whole.windows() == before)
 check.end()
