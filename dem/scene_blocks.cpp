@@ -286,6 +286,16 @@ void read_blocks(const SceneFile& file, Scene& scene) {
     if (armour) place_armour(dem, scene, *armour, scene.surroundings.fixed_spheres);
     const std::size_t placed_singly = scene.placed.size();
     read_single_blocks(dem, book, scene);
+    if (scene.surroundings.period > 0) {
+        double farthest = 0;
+        for (const auto& shape : scene.placed.shapes) farthest = std::max(farthest, shape.radius);
+        // Of a block's images only the nearest is felt.
+        if (scene.width < 4 * farthest)
+            dem.problem("width",
+                        fmt::format("{} m is too narrow for periodic sides and blocks {:.3g} m across: "
+                                    "expected at least {:.3g} m",
+                                    scene.width, 2 * farthest, 4 * farthest));
+    }
     if (scene.placed.size() == 0) dem.problem("", "no blocks: give [dem.blocks] or [[dem.block]]");
 
     const Section packing = dem.table("packing");

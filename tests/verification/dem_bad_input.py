@@ -48,6 +48,7 @@ refused("the same link twice", put("[[wires.link]]\nblocks = [1, 2]\n[[wires.lin
 refused("sphere the shape has not", put("[[wires.link]]\nblocks = [1, 2]\nspheres = [1, 97]\n"), "no sphere 97", "1 to 96")
 refused("row that is not there", put("[[wires.along]]\nrows = [3]\n"), "wires.along", "no number 3")
 refused("unknown key", put("", "width = 0.1", "widht = 0.1"), "did you mean 'width'")
+refused("periodic box narrower than two blocks", put("", "width = 0.1", 'width = 0.05\nsides = "periodic"'), "dem.width", "too narrow")
 refused("negative friction", put("", "width = 0.1", "width = 0.1\nfriction = -1.0"), "dem.friction")
 refused("mound whose x does not increase", put("", "[[0.0, -0.2], [0.2, -0.2]]", "[[0.2, -0.2], [0.0, -0.2]]"), "dem.mound.profile")
 refused("no blocks", "[time]\nend = 1.0\n[dem]\ndry = true\n", "no blocks")
