@@ -105,6 +105,12 @@ void RunRecord::write_running() {
 }
 void RunRecord::write_ended(const std::string& status, const std::string& message) {
     write(status, message);
+    // A run that went wrong without stopping must not look like one that went well.
+    for (const auto& [name, invariant] : content_->invariants.items())
+        if (invariant["holds"] == false)
+            fmt::print(stderr, "{}: warning: {} is {} {}, bound {}: do not trust this run\n", stage_, name,
+                       invariant["value"].dump(), invariant["unit"].get<std::string>(),
+                       invariant["bound"].dump());
 }
 
 void RunRecord::write(const std::string& status, const std::string& message) {

@@ -293,7 +293,12 @@ TEST(RunRecord, StatusIsReadBack) {
     record.write_running();
     EXPECT_EQ(read_upstream_status(folder.path).state, UpstreamStatus::State::running);
     record.set_invariant({"mass_drift", std::nan(""), "-", 0.02});
+    record.set_invariant({"water balance", 0.0, "-", 1e-9});
+    testing::internal::CaptureStderr();
     record.write_ended("interrupted");
+    const std::string told = testing::internal::GetCapturedStderr();
+    EXPECT_TRUE(holds(told, "cmps: warning: mass_drift is null -, bound 0.02")) << told;
+    EXPECT_FALSE(holds(told, "water balance")) << told;
     const auto status = read_upstream_status(folder.path);
     EXPECT_EQ(status.state, UpstreamStatus::State::interrupted);
     EXPECT_EQ(status.windows, 1);
