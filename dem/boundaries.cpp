@@ -6,11 +6,27 @@
 
 namespace dem {
 
-FixedSpheres::FixedSpheres(std::vector<Vector> centres, double diameter, double reach)
-    : centres_(std::move(centres)), diameter_(diameter), cell_(reach) {
+FixedSpheres::FixedSpheres(std::vector<Vector> centres, double diameter, double reach, double period)
+    : centres_(std::move(centres)), diameter_(diameter), period_(period), cell_(reach) {
     if (centres_.empty()) return;
-    Vector least = centres_[0], most = centres_[0];
-    for (const auto& c : centres_) {
+    std::vector<Entry> entries;
+    std::vector<Vector> places;
+    const auto add = [&](std::uint32_t sphere, double periods) {
+        entries.push_back({sphere, static_cast<std::int32_t>(periods)});
+        places.push_back(image_of(sphere, periods));
+    };
+    for (std::uint32_t i = 0; i < centres_.size(); ++i) {
+        const double inside = -period_at(centres_[i].y());
+        add(i, inside);
+        if (period_ == 0) continue;
+        // Those near one side are felt at the other.
+        const double y = places.back().y();
+        if (y < reach) add(i, inside + 1);
+        if (y > period_ - reach) add(i, inside - 1);
+    }
+
+    Vector least = places[0], most = places[0];
+    for (const auto& c : places) {
         least = least.cwiseMin(c);
         most = most.cwiseMax(c);
     }
@@ -27,17 +43,19 @@ FixedSpheres::FixedSpheres(std::vector<Vector> centres, double diameter, double 
 
     const auto cells = static_cast<std::size_t>(count_x_ * count_y_);
     begin_.assign(cells + 1, 0);
-    for (const auto& c : centres_) ++begin_[static_cast<std::size_t>(cell_of(c.x(), c.y())) + 1];
+    for (const auto& c : places) ++begin_[static_cast<std::size_t>(cell_of(c.x(), c.y())) + 1];
     for (std::size_t i = 0; i < cells; ++i) begin_[i + 1] += begin_[i];
-    order_.resize(centres_.size());
+    order_.resize(places.size());
+    in_order_.resize(places.size());
     std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
     std::vector<double> own_top(cells, -std::numeric_limits<double>::infinity());
-    for (std::uint32_t i = 0; i < centres_.size(); ++i) {
-        const auto cell = static_cast<std::size_t>(cell_of(centres_[i].x(), centres_[i].y()));
-        order_[next[cell]++] = i;
-        own_top[cell] = std::max(own_top[cell], centres_[i].z());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const auto cell = static_cast<std::size_t>(cell_of(places[i].x(), places[i].y()));
+        const std::uint32_t to = next[cell]++;
+        order_[to] = entries[i];
+        in_order_[to] = places[i];
+        own_top[cell] = std::max(own_top[cell], places[i].z());
     }
-    for (const auto sphere : order_) in_order_.push_back(centres_[sphere]);
     top_ = own_top;
     for (std::int64_t y = 1; y + 1 < count_y_; ++y)
         for (std::int64_t x = 1; x + 1 < count_x_; ++x)
@@ -55,8 +73,10 @@ std::int64_t FixedSpheres::cell_of(double x, double y) const {
     return j * count_x_ + i;
 }
 
-void FixedSpheres::find_near(const Vector& point, double distance, std::vector<Near>& found) const {
+void FixedSpheres::find_near(const Vector& wherever, double distance, std::vector<Near>& found) const {
     if (centres_.empty()) return;
+    const double periods = period_at(wherever.y());
+    const Vector point = wherever - Vector(0, periods * period_, 0);
     const std::int64_t cell = cell_of(point.x(), point.y());
     if (cell < 0 || point.z() - distance > top_[static_cast<std::size_t>(cell)]) return;
     const std::int64_t column = cell % count_x_, row = cell / count_x_;
@@ -67,15 +87,16 @@ void FixedSpheres::find_near(const Vector& point, double distance, std::vector<N
         const auto to = static_cast<std::size_t>(y * count_x_ + std::min(column + 1, count_x_ - 1));
         for (std::uint32_t k = begin_[from]; k < begin_[to + 1]; ++k)
             if ((in_order_[k] - point).squaredNorm() < distance * distance)
-                found.push_back({order_[k], in_order_[k]});
+                found.push_back({order_[k].sphere, image_of(order_[k].sphere, periods + order_[k].periods)});
     }
     std::sort(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(),
               [](const Near& a, const Near& b) { return a.sphere < b.sphere; });
 }
 
-double FixedSpheres::highest_near(double x, double y, double distance) const {
+double FixedSpheres::highest_near(double x, double wherever, double distance) const {
     double top = -std::numeric_limits<double>::infinity();
     if (centres_.empty()) return top;
+    const double y = wherever - period_at(wherever) * period_;
     const auto clamp = [](double value, std::int64_t count) {
         return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(value)), 0, count - 1);
     };
@@ -85,7 +106,7 @@ double FixedSpheres::highest_near(double x, double y, double distance) const {
              i <= clamp((x + distance - origin_x_) / cell_, count_x_); ++i) {
             const auto cell = static_cast<std::size_t>(j * count_x_ + i);
             for (std::uint32_t k = begin_[cell]; k < begin_[cell + 1]; ++k) {
-                const Vector& c = centres_[order_[k]];
+                const Vector& c = in_order_[k];
                 if (std::hypot(c.x() - x, c.y() - y) <= distance) top = std::max(top, c.z());
             }
         }

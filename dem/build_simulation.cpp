@@ -64,11 +64,13 @@ void take_over(Simulation& simulation, const PackedPoses& packed, const std::vec
 
 namespace {
 
-double distance(const PackedPoses& poses, const Blocks& blocks, const WirePlace& place) {
+double distance(const PackedPoses& poses, const Blocks& blocks, const WirePlace& place, double image) {
     const auto centre = [&](std::uint32_t block, std::uint32_t sphere) -> Vector {
         return poses.position[block] + poses.orientation[block] * blocks.shape_of(block).spheres[sphere];
     };
-    return (centre(place.block_b, place.sphere_b) - centre(place.block_a, place.sphere_a)).norm();
+    return (centre(place.block_b, place.sphere_b) + Vector(0, image, 0) -
+            centre(place.block_a, place.sphere_a))
+        .norm();
 }
 
 void check_same_scene(const std::string& digest, const Scene& scene, const std::filesystem::path& from) {
@@ -174,12 +176,16 @@ void mount_layout(Simulation& simulation, const Scene& scene, const PackedPoses&
         return std::binary_search(scene.wires.put_back.begin(), scene.wires.put_back.end(), block);
     };
     const PackedPoses present = poses_of(simulation.blocks);
+    const double period = scene.surroundings.period;
     for (const auto& link : scene.wires.links)
-        for (const auto& place : wires_of(scene.placed, link)) {
+        for (const auto& place : wires_of(scene.placed, link, period)) {
             const double stiffness = link.stiffness.value_or(scene.wires.stiffness);
+            const double image = nearest_image(scene.placed, place.block_a, place.block_b, period);
             const double mounted = link.rest_length.value_or(
-                distance(earlier != nullptr ? present : packed, simulation.blocks, place) + link.slack);
-            wires.add(place.block_a, place.sphere_a, place.block_b, place.sphere_b, mounted, stiffness);
+                distance(earlier != nullptr ? present : packed, simulation.blocks, place, image) +
+                link.slack);
+            wires.add(place.block_a, place.sphere_a, place.block_b, place.sphere_b, mounted, stiffness,
+                      image);
             const auto old = known.find(place);
             if (old == known.end() || was_put_back(place.block_a) || was_put_back(place.block_b)) continue;
             wires.rest_length.back() = earlier->rest_length[old->second];

@@ -34,7 +34,6 @@ void find_touches(const Blocks& blocks, const Surroundings& surroundings, const 
     const Rotation& turn = blocks.rotation[pair.block];
     const Vector& centre = blocks.position[pair.block];
     const double radius = 0.5 * shape.diameter;
-    const double shift = pair.image * surroundings.period;
 
     const auto add = [&](const Candidate& candidate, const Vector& arm, const Vector& between, double squared,
                          double reach, double partner_radius) {
@@ -60,14 +59,12 @@ void find_touches(const Blocks& blocks, const Surroundings& surroundings, const 
     } else if (list.is_fixed_spheres(pair.partner)) {
         const double partner_radius = 0.5 * surroundings.fixed_spheres.diameter();
         const double reach = radius + partner_radius;
-        Vector origin = centre;
-        origin.y() -= shift;
         const auto candidates = list.candidates(pair);
         const auto centres = list.centres(pair);
         for (std::size_t k = 0; k < candidates.size(); ++k) {
             const Candidate& candidate = candidates[k];
             const Vector arm = turn * shape.spheres[candidate.a];
-            const Vector between = centres[k] - origin - arm;
+            const Vector between = centres[k] - centre - arm;
             const double squared = between.squaredNorm();
             if (squared < reach * reach) add(candidate, arm, between, squared, reach, partner_radius);
         }

@@ -1,6 +1,7 @@
 #include "dem/layout.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace dem {
@@ -23,9 +24,16 @@ std::vector<std::uint32_t> side_spheres(const Blocks& placed, std::uint32_t bloc
 
 }  // namespace
 
-std::vector<WirePlace> facing_spheres(const Blocks& placed, std::uint32_t block_a, std::uint32_t block_b) {
+double nearest_image(const Blocks& placed, std::uint32_t block_a, std::uint32_t block_b, double period) {
+    if (period == 0) return 0;
+    return -period * std::round((placed.position[block_b].y() - placed.position[block_a].y()) / period);
+}
+
+std::vector<WirePlace> facing_spheres(const Blocks& placed, std::uint32_t block_a, std::uint32_t block_b,
+                                      double period) {
+    const Vector image(0, nearest_image(placed, block_a, block_b, period), 0);
     // The world axis along which the two stand side by side.
-    const Vector between = placed.position[block_b] - placed.position[block_a];
+    const Vector between = placed.position[block_b] + image - placed.position[block_a];
     Eigen::Index axis = 0;
     between.cwiseAbs().maxCoeff(&axis);
     const Vector direction = Vector::Unit(axis) * (between[axis] < 0 ? -1.0 : 1.0);
@@ -36,7 +44,7 @@ std::vector<WirePlace> facing_spheres(const Blocks& placed, std::uint32_t block_
         auto nearest = side_b.end();
         double least = std::numeric_limits<double>::infinity();
         for (auto b = side_b.begin(); b != side_b.end(); ++b) {
-            Vector across = placed.sphere_centre(block_b, *b) - placed.sphere_centre(block_a, a);
+            Vector across = placed.sphere_centre(block_b, *b) + image - placed.sphere_centre(block_a, a);
             across[axis] = 0;
             // A hair's breadth of preference for the first keeps ties from being decided by rounding.
             if (across.norm() < least - 1e-9) {
@@ -51,9 +59,9 @@ std::vector<WirePlace> facing_spheres(const Blocks& placed, std::uint32_t block_
     return pairs;
 }
 
-std::vector<WirePlace> wires_of(const Blocks& placed, const LinkRequest& link) {
+std::vector<WirePlace> wires_of(const Blocks& placed, const LinkRequest& link, double period) {
     if (link.spheres) return {{link.block_a, (*link.spheres)[0], link.block_b, (*link.spheres)[1]}};
-    const auto all = facing_spheres(placed, link.block_a, link.block_b);
+    const auto all = facing_spheres(placed, link.block_a, link.block_b, period);
     const std::size_t count = link.wires == 0 ? all.size() : std::min(link.wires, all.size());
     std::vector<WirePlace> chosen;
     for (std::size_t k = 0; k < count; ++k) chosen.push_back(all[(2 * k + 1) * all.size() / (2 * count)]);

@@ -29,11 +29,16 @@ struct WirePlace {
     auto operator<=>(const WirePlace&) const = default;
 };
 
+/// How much further in y the image of block b stands that is nearest to block a, m. `period`: width of the
+/// periodic box; 0: none. A link joins a block to that image, for good.
+double nearest_image(const Blocks& placed, std::uint32_t block_a, std::uint32_t block_b, double period);
+
 /// Spheres of the sides of two blocks that face each other, paired by their place across the gap.
 /// `placed`: blocks as they stand before packing, where sides are parallel.
-std::vector<WirePlace> facing_spheres(const Blocks& placed, std::uint32_t block_a, std::uint32_t block_b);
+std::vector<WirePlace> facing_spheres(const Blocks& placed, std::uint32_t block_a, std::uint32_t block_b,
+                                      double period = 0);
 
 /// The wires of one link.
-std::vector<WirePlace> wires_of(const Blocks& placed, const LinkRequest& link);
+std::vector<WirePlace> wires_of(const Blocks& placed, const LinkRequest& link, double period = 0);
 
 }  // namespace dem

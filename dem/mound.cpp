@@ -53,9 +53,11 @@ std::vector<Vector> build_mound(const MoundDescription& description) {
             const double height = top[static_cast<std::size_t>(i * count_y + j)];
             double lowest = height - description.least_depth;
             for (std::int64_t k = std::max<std::int64_t>(i - 1, 0); k <= std::min(i + 1, count_x - 1); ++k)
-                for (std::int64_t l = std::max<std::int64_t>(j - 1, 0); l <= std::min(j + 1, count_y - 1);
-                     ++l)
-                    lowest = std::min(lowest, top[static_cast<std::size_t>(k * count_y + l)]);
+                for (std::int64_t l = j - 1; l <= j + 1; ++l) {
+                    const std::int64_t wrapped = (l + count_y) % count_y;
+                    if (wrapped == l || description.is_periodic)
+                        lowest = std::min(lowest, top[static_cast<std::size_t>(k * count_y + wrapped)]);
+                }
             const double x = x_begin + (static_cast<double>(i) + 0.5) * pitch_x;
             const double y = description.y_begin + (static_cast<double>(j) + 0.5) * pitch_y;
             double z = height - 0.5 * d;

@@ -18,8 +18,9 @@ struct MoundDescription {
     double patch =
         0;  ///< side of the square patches of columns that share a height, m; 0: every column its own
     std::uint64_t seed = 1;
-    double diameter = 0.008;  ///< of the spheres, and their pitch, m
-    double least_depth = 0;   ///< columns reach at least this far down, m
+    double diameter = 0.008;   ///< of the spheres, and their pitch, m
+    double least_depth = 0;    ///< columns reach at least this far down, m
+    bool is_periodic = false;  ///< its two ends in y meet
 };
 
 /// Height of the mean surface at x, m; level beyond its ends.

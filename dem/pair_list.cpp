@@ -206,20 +206,25 @@ void PairList::find_pairs() {
                     if (neighbours == cells.end()) continue;
                     for (const auto j : neighbours->second) {
                         if (j <= i || (blocks_.is_fixed[i] && blocks_.is_fixed[j])) continue;
-                        Vector offset = blocks_.position[j] - p;
-                        const auto image =
-                            period > 0 ? static_cast<std::int32_t>(-std::lround(offset.y() / period)) : 0;
-                        offset.y() += image * period;
+                        const Vector offset = blocks_.position[j] - p;
                         const double reach = radius + blocks_.shape_of(j).radius + wide_skin_;
-                        if (offset.squaredNorm() < reach * reach) add(i, j, image);
+                        if (period == 0) {
+                            if (offset.squaredNorm() < reach * reach) add(i, j, 0);
+                            continue;
+                        }
+                        // In a narrow box two images may come near before the next look.
+                        const auto last =
+                            static_cast<std::int32_t>(std::floor((reach - offset.y()) / period));
+                        for (auto image =
+                                 static_cast<std::int32_t>(std::ceil((-reach - offset.y()) / period));
+                             image <= last; ++image)
+                            if ((offset + Vector(0, image * period, 0)).squaredNorm() < reach * reach)
+                                add(i, j, image);
                     }
                 }
             }
         if (blocks_.is_fixed[i]) continue;
-        if (!surroundings_.fixed_spheres.empty()) {
-            const auto image = period > 0 ? static_cast<std::int32_t>(std::floor(p.y() / period)) : 0;
-            add(i, static_cast<std::uint32_t>(count), image);
-        }
+        if (!surroundings_.fixed_spheres.empty()) add(i, static_cast<std::uint32_t>(count), 0);
         for (std::uint32_t k = 0; k < surroundings_.planes.size(); ++k) {
             const Plane& plane = surroundings_.planes[k];
             if ((p - plane.point).dot(plane.normal) < radius + wide_skin_)
@@ -277,9 +282,8 @@ void PairList::find_candidates(const Pair& pair) {
     const Shape& shape = blocks_.shape_of(pair.block);
     for (const int exposed : shape.exposed) {
         const auto sphere = static_cast<std::uint32_t>(exposed);
-        Vector centre = blocks_.sphere_centre(pair.block, sphere);
+        const Vector centre = blocks_.sphere_centre(pair.block, sphere);
         if (is_fixed_spheres(pair.partner)) {
-            centre.y() -= pair.image * surroundings_.period;
             near_.clear();
             surroundings_.fixed_spheres.find_near(
                 centre, 0.5 * (shape.diameter + surroundings_.fixed_spheres.diameter()) + reach, near_);

@@ -46,9 +46,12 @@ struct PairForces {
 
 /// A block and a partner: a later block, the fixed spheres (number blocks.size()), or a plane (the numbers
 /// after it). What it holds lies in the list's own arrays, in the order of pairs.
+///
+/// In a periodic box positions go on across its sides, so that which image of a block is meant does not
+/// change while the two touch; of a fixed sphere the image is that whose place the candidate holds.
 struct Pair {
     std::uint32_t block = 0, partner = 0;
-    std::int32_t image = 0;  ///< the partner stands this many widths of the periodic box further in y
+    std::int32_t image = 0;             ///< the partner, a block, stands this many periods further in y
     std::uint32_t first = 0, room = 0;  ///< where in those arrays, and for how many
     std::uint32_t candidates = 0, contacts = 0;
 };

@@ -62,20 +62,20 @@ void for_overlaps(const Blocks& blocks, const Surroundings& surroundings, std::s
         const double radius = 0.5 * blocks.shape_of(pair.block).diameter;
         const Vector shift(0, pair.image * surroundings.period, 0);
         for (const auto& candidate : list.candidates(pair)) {
-            const Vector centre = blocks.sphere_centre(pair.block, candidate.a) - shift;
+            const Vector centre = blocks.sphere_centre(pair.block, candidate.a);
             double depth = 0;
             const char* kind = "";
             if (list.is_block(pair.partner)) {
                 depth = radius + 0.5 * blocks.shape_of(pair.partner).diameter -
-                        (blocks.sphere_centre(pair.partner, candidate.b) - centre).norm();
+                        (blocks.sphere_centre(pair.partner, candidate.b) + shift - centre).norm();
             } else if (list.is_fixed_spheres(pair.partner)) {
                 kind = "the mound or another fixed sphere";
                 depth = radius + 0.5 * surroundings.fixed_spheres.diameter() -
-                        (surroundings.fixed_spheres.centre(candidate.b) - centre).norm();
+                        (surroundings.fixed_spheres.centre_near(candidate.b, centre) - centre).norm();
             } else {
                 kind = "a wall";
                 const Plane& plane = list.plane(pair.partner);
-                depth = radius - (centre + shift - plane.point).dot(plane.normal);
+                depth = radius - (centre - plane.point).dot(plane.normal);
             }
             if (depth > 0)
                 visit(pair, depth,
@@ -93,17 +93,6 @@ Clash deepest_overlap(const Blocks& blocks, const Surroundings& surroundings, st
         if (depth > deepest.depth) deepest = {depth, pair.block, partner};
     });
     return deepest;
-}
-
-std::vector<Vector> with_images(const std::vector<Vector>& centres, double period, double reach) {
-    std::vector<Vector> all = centres;
-    // Blocks are seen with their centres in the box; their spheres may stand out of it by some lengths.
-    const double border = std::min(period, 20 * reach);
-    for (const auto& c : centres) {
-        if (c.y() < border) all.emplace_back(c.x(), c.y() + period, c.z());
-        if (c.y() > period - border) all.emplace_back(c.x(), c.y() - period, c.z());
-    }
-    return all;
 }
 
 }  // namespace dem

@@ -39,7 +39,4 @@ struct Clash {
 Clash deepest_overlap(const Blocks& blocks, const Surroundings& surroundings,
                       std::size_t only = ~std::size_t{0});
 
-/// Adds copies of spheres near the ends of a periodic box in y (0 .. period), within `reach` of it.
-std::vector<Vector> with_images(const std::vector<Vector>& centres, double period, double reach);
-
 }  // namespace dem

@@ -76,6 +76,7 @@ void read_single_blocks(const Section& dem, ShapeBook& book, Scene& scene) {
 }
 
 void read_walls(const Section& dem, Scene& scene) {
+    std::vector<Section> leaning;
     for (const Section& entry : dem.tables("planes")) {
         const auto point = entry.numbers("point", "m", "a point of the plane", 3, Range::any());
         const auto normal = entry.numbers("normal", "-", "towards the blocks", 3, Range::any());
@@ -85,6 +86,7 @@ void read_walls(const Section& dem, Scene& scene) {
             continue;
         }
         scene.surroundings.planes.push_back({Vector(point[0], point[1], point[2]), direction.normalized()});
+        if (direction.y() != 0) leaning.push_back(entry);
     }
     scene.width = dem.number("width", "m", "of the armour along the breakwater; 0: unbounded",
                              Range::not_negative(), 0.0);
@@ -95,7 +97,10 @@ void read_walls(const Section& dem, Scene& scene) {
         scene.surroundings.planes.push_back({Vector(0, 0, 0), Vector(0, 1, 0)});
         scene.surroundings.planes.push_back({Vector(0, scene.width, 0), Vector(0, -1, 0)});
     }
-    if (sides == "periodic") scene.surroundings.period = scene.width;
+    if (sides != "periodic") return;
+    scene.surroundings.period = scene.width;
+    for (const Section& entry : leaning)
+        entry.problem("normal", "periodic sides need planes that do not face along y");
 }
 
 /// The mean mound and its rough columns; empty with mound = "none".
@@ -123,6 +128,14 @@ MoundDescription read_mound(const Section& dem, const Scene& scene, double block
     mound.y_begin = y[0];
     mound.y_end = y[1];
     mound.diameter = scene.element.diameter;
+    mound.is_periodic = scene.surroundings.period > 0;
+    // A rounding of the user's own numbers is far below, a column of the mound far above.
+    if (mound.is_periodic && std::abs(y[1] - y[0] - scene.width) > 1e-6 * scene.width) {
+        section.problem("y",
+                        fmt::format("periodic sides need a mound as wide as dem.width, {} m", scene.width));
+        mound.profile.clear();
+        return mound;
+    }
     bool good = mound.profile.size() >= 2 && y[1] > y[0];
     for (std::size_t i = 1; i < mound.profile.size(); ++i)
         good = good && mound.profile[i][0] > mound.profile[i - 1][0];
@@ -266,8 +279,8 @@ void place_fixed_spheres(const Section& dem, Scene& scene, double block_height) 
     double largest = scene.element.diameter;
     for (const auto& shape : scene.placed.shapes) largest = std::max(largest, shape.diameter);
     const double reach = 0.5 * (largest + scene.element.diameter) + scene.step.skin;
-    if (scene.surroundings.period > 0) fixed = with_images(fixed, scene.surroundings.period, reach);
-    scene.surroundings.fixed_spheres = FixedSpheres(std::move(fixed), scene.element.diameter, reach);
+    scene.surroundings.fixed_spheres =
+        FixedSpheres(std::move(fixed), scene.element.diameter, reach, scene.surroundings.period);
 }
 
 }  // namespace

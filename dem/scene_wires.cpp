@@ -144,7 +144,7 @@ class LinkReader {
         add(entry, key, link);
     }
     void add(const Section& entry, const char* key, const LinkRequest& link) {
-        for (auto place : wires_of(scene_.placed, link)) {
+        for (auto place : wires_of(scene_.placed, link, scene_.surroundings.period)) {
             if (place.block_a > place.block_b) {
                 std::swap(place.block_a, place.block_b);
                 std::swap(place.sphere_a, place.sphere_b);

@@ -143,6 +143,7 @@ void store_wires(const Wires& wires, DataFile& file) {
     file.datasets["/wires/ends"] = integer32("-", {count, 4}, std::move(ends));
     file.datasets["/wires/rest_length"] = real64("m", {count}, wires.rest_length);
     file.datasets["/wires/stiffness"] = real64("N/m", {count}, wires.stiffness);
+    file.datasets["/wires/image_offset"] = real64("m", {count}, wires.image_offset);
     file.datasets["/wires/intact"] = integer32("-", {count}, as_integers(wires.is_intact));
     file.datasets["/wires/tension"] = real64("N", {count}, wires.tension);
     file.datasets["/wires/largest_tension"] = real64("N", {count}, wires.largest_tension);
@@ -157,6 +158,7 @@ Wires wires_from(const DataFile& file) {
     const auto& ends = file.at("/wires/ends").integers();
     wires.rest_length = file.at("/wires/rest_length").doubles();
     wires.stiffness = file.at("/wires/stiffness").doubles();
+    wires.image_offset = file.at("/wires/image_offset").doubles();
     for (const auto flag : file.at("/wires/intact").integers())
         wires.is_intact.push_back(static_cast<std::uint8_t>(flag));
     wires.tension = file.at("/wires/tension").doubles();

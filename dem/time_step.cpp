@@ -66,10 +66,9 @@ double Simulation::stable_time_step() const {
                     between.y() += pair.image * surroundings_.period;
                     direction = between.normalized();
                 } else if (pair_list_.is_fixed_spheres(pair.partner)) {
-                    Vector between = surroundings_.fixed_spheres.centre(contact.b) -
-                                     blocks.sphere_centre(pair.block, contact.a);
-                    between.y() += pair.image * surroundings_.period;
-                    direction = between.normalized();
+                    const Vector centre = blocks.sphere_centre(pair.block, contact.a);
+                    direction =
+                        (surroundings_.fixed_spheres.centre_near(contact.b, centre) - centre).normalized();
                 } else {
                     direction = pair_list_.plane(pair.partner).normal;
                 }
@@ -84,9 +83,7 @@ double Simulation::stable_time_step() const {
         for (std::size_t w = 0; w < wires.size(); ++w) {
             if (!wires.is_intact[w] || (wires.block_a[w] != i && wires.block_b[w] != i)) continue;
             any = true;
-            const Vector direction = (blocks.sphere_centre(wires.block_b[w], wires.sphere_b[w]) -
-                                      blocks.sphere_centre(wires.block_a[w], wires.sphere_a[w]))
-                                         .normalized();
+            const Vector direction = wires.between_ends(blocks, w).normalized();
             const Vector arm = blocks.arm(i, wires.block_a[w] == i ? wires.sphere_a[w] : wires.sphere_b[w]);
             add_spring(stiffness, arm, direction, 2 * wires.stiffness[w], 0, inverse_root_mass,
                        inverse_root_inertia);

@@ -122,6 +122,7 @@ common::DataFile geometry_of(const Simulation& simulation, const PackedPoses& pa
         for (const auto number : {wires.block_a[k], wires.sphere_a[k], wires.block_b[k], wires.sphere_b[k]})
             ends.push_back(static_cast<std::int32_t>(number));
     file.datasets["/wires/ends"] = integer32("-", {wires.size(), 4}, std::move(ends));
+    file.datasets["/wires/image_offset"] = real64("m", {wires.size()}, wires.image_offset);
     file.datasets["/wires/rest_length"] = real64("m", {wires.size()}, wires.rest_length);
     file.datasets["/wires/stiffness"] = real64("N/m", {wires.size()}, wires.stiffness);
     return file;

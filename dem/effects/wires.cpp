@@ -7,13 +7,14 @@
 namespace dem {
 
 void Wires::add(std::uint32_t a, std::uint32_t sphere_of_a, std::uint32_t b, std::uint32_t sphere_of_b,
-                double r0, double k_n) {
+                double r0, double k_n, double offset_of_image) {
     block_a.push_back(a);
     sphere_a.push_back(sphere_of_a);
     block_b.push_back(b);
     sphere_b.push_back(sphere_of_b);
     rest_length.push_back(r0);
     stiffness.push_back(k_n);
+    image_offset.push_back(offset_of_image);
     is_intact.push_back(1);
     tension.push_back(0);
     broken_at.push_back(-1);
@@ -35,10 +36,9 @@ double Wires::energy_at(std::size_t wire, double r) const {
     return stiffness[wire] * (0.5 * (r * r - r0 * r0) - 2 * r0 * stretch + logarithm);
 }
 
-double Wires::length(const Blocks& blocks, std::size_t wire) const {
-    return (blocks.sphere_centre(block_b[wire], sphere_b[wire]) -
-            blocks.sphere_centre(block_a[wire], sphere_a[wire]))
-        .norm();
+Vector Wires::between_ends(const Blocks& blocks, std::size_t wire) const {
+    return blocks.sphere_centre(block_b[wire], sphere_b[wire]) + Vector(0, image_offset[wire], 0) -
+           blocks.sphere_centre(block_a[wire], sphere_a[wire]);
 }
 
 void Wires::pull(Blocks& blocks, double t) {
@@ -53,7 +53,8 @@ void Wires::pull(Blocks& blocks, double t, const std::vector<std::uint32_t>& whi
         if (!is_intact[k]) continue;
         const std::uint32_t a = block_a[k], b = block_b[k];
         const Vector arm_a = blocks.arm(a, sphere_a[k]), arm_b = blocks.arm(b, sphere_b[k]);
-        const Vector between = blocks.position[b] + arm_b - blocks.position[a] - arm_a;
+        const Vector between =
+            blocks.position[b] + Vector(0, image_offset[k], 0) + arm_b - blocks.position[a] - arm_a;
         const double r = between.norm();
         if (r <= rest_length[k]) {
             tension[k] = 0;
@@ -83,7 +84,7 @@ void Wires::pull(Blocks& blocks, double t, const std::vector<std::uint32_t>& whi
 double Wires::elastic_energy(const Blocks& blocks) const {
     double energy = 0;
     for (std::size_t k = 0; k < size(); ++k)
-        if (is_intact[k]) energy += energy_at(k, length(blocks, k));
+        if (is_intact[k]) energy += energy_at(k, between_ends(blocks, k).norm());
     return energy;
 }
 

@@ -22,6 +22,8 @@ struct Wires {
     std::vector<std::uint32_t> block_a, sphere_a, block_b, sphere_b;
     std::vector<double> rest_length;  ///< r0, m
     std::vector<double> stiffness;    ///< k_n, N/m
+    std::vector<double>
+        image_offset;  ///< in a periodic box the second end is the image so much further in y, m
     std::vector<std::uint8_t> is_intact;
     std::vector<double> tension;          ///< at the last step, N
     std::vector<double> broken_at;        ///< s; -1 while intact
@@ -30,7 +32,7 @@ struct Wires {
 
     std::size_t size() const { return block_a.size(); }
     void add(std::uint32_t a, std::uint32_t sphere_of_a, std::uint32_t b, std::uint32_t sphere_of_b,
-             double r0, double k_n);
+             double r0, double k_n, double offset_of_image = 0);
     /// Adds forces and torques of the intact ones among `which` to those blocks that are wanted, in order of
     /// wires; breaks those longer than r0 + psi d at time t.
     void pull(Blocks& blocks, double t, const std::vector<std::uint32_t>& which,
@@ -39,7 +41,8 @@ struct Wires {
     void pull(Blocks& blocks, double t);
     /// Elastic energy of the intact ones at their present length, J.
     double elastic_energy(const Blocks& blocks) const;
-    double length(const Blocks& blocks, std::size_t wire) const;
+    /// From the first end to the second, m.
+    Vector between_ends(const Blocks& blocks, std::size_t wire) const;
     std::size_t intact_count() const;
     /// Stored energy at length r, J.
     double energy_at(std::size_t wire, double r) const;

@@ -49,6 +49,10 @@ refused("sphere the shape has not", put("[[wires.link]]\nblocks = [1, 2]\nsphere
 refused("row that is not there", put("[[wires.along]]\nrows = [3]\n"), "wires.along", "no number 3")
 refused("unknown key", put("", "width = 0.1", "widht = 0.1"), "did you mean 'width'")
 refused("periodic box narrower than two blocks", put("", "width = 0.1", 'width = 0.05\nsides = "periodic"'), "dem.width", "too narrow")
+refused("periodic sides and a mound that is not as wide", put("", "roughness = 0.004", "roughness = 0.004\ny = [0.0, 0.12]").replace("width = 0.1", 'width = 0.25\nsides = "periodic"'),
+        "scene.toml:16", "dem.mound.y", "0.25 m")
+refused("periodic sides and a plane across them", put("", "width = 0.1", 'width = 0.25\nsides = "periodic"\nplanes = [{ point = [0.0, 0.0, -1.0], normal = [0.0, 1.0, 0.0] }]'),
+        "scene.toml:7", "normal", "along y")
 refused("negative friction", put("", "width = 0.1", "width = 0.1\nfriction = -1.0"), "dem.friction")
 refused("mound whose x does not increase", put("", "[[0.0, -0.2], [0.2, -0.2]]", "[[0.2, -0.2], [0.0, -0.2]]"), "dem.mound.profile")
 refused("no blocks", "[time]\nend = 1.0\n[dem]\ndry = true\n", "no blocks")

@@ -3,7 +3,6 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -12,15 +11,16 @@
 
 namespace {
 
+constexpr const char* peer_scene_path = TSUNAGI_SOURCE_DIR "/tests/support/dem_peer_scene.toml";
+
 constexpr const char* links = "wires.along=[{rows=[1,2,3,4,5,6,7,8,9,10],columns=[1,10],wires=4}]";
 
 /// A second of the scene with these settings, its blocks settled and its wires mounted.
 void a_second(benchmark::State& state, std::vector<std::string> settings) {
     common::use_threads(1);
-    const auto here = std::filesystem::path(__FILE__).parent_path();
     // Steps of the paper's scene: with the short ones of the peer scene settling would take most of the time.
     settings.push_back("dem.time_step=1e-4");
-    const auto file = common::SceneFile::read(here / "../../support/dem_peer_scene.toml", settings);
+    const auto file = common::SceneFile::read(peer_scene_path, settings);
     dem::Scene scene = dem::read_scene(file, nullptr);
     file.finish();
     const auto simulation = dem::build_simulation(scene, true);

@@ -3,7 +3,6 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,9 +12,10 @@
 
 namespace {
 
+constexpr const char* peer_scene_path = TSUNAGI_SOURCE_DIR "/tests/support/dem_peer_scene.toml";
+
 dem::Scene scene_with(const std::vector<std::string>& overrides) {
-    const auto here = std::filesystem::path(__FILE__).parent_path();
-    const auto file = common::SceneFile::read(here / "../../support/dem_peer_scene.toml", overrides);
+    const auto file = common::SceneFile::read(peer_scene_path, overrides);
     dem::Scene scene = dem::read_scene(file, nullptr);
     file.finish();
     return scene;

@@ -33,8 +33,7 @@ World heap(int count, unsigned seed, double period = 0) {
     std::vector<Vector> floor;
     for (int i = -10; i < 40; ++i)
         for (int j = -10; j < 40; ++j) floor.emplace_back(0.008 * i, 0.008 * j, 0.003 * turn(random));
-    if (period > 0) floor = dem::with_images(floor, period, 0.01);
-    world.surroundings.fixed_spheres = dem::FixedSpheres(floor, 0.008, 0.0098);
+    world.surroundings.fixed_spheres = dem::FixedSpheres(floor, 0.008, 0.0098, period);
     world.surroundings.planes.push_back({Vector(-0.05, 0, 0), Vector(1, 0, 0)});
     world.surroundings.planes.push_back({Vector(0.25, 0, 0), Vector(-1, 0, 0)});
     world.surroundings.period = period;

@@ -137,6 +137,57 @@ TEST(FixedSpheres, FindsWhatBruteForceFinds) {
     }
 }
 
+TEST(FixedSpheres, FindsTheImagesOfAPeriodicBoxFromAnywhere) {
+    constexpr double period = 0.09, reach = 0.0095;
+    std::mt19937 random(6);
+    std::uniform_real_distribution<double> place(-0.1, 0.1);
+    std::vector<Vector> centres;  // some outside the box
+    for (int k = 0; k < 500; ++k)
+        centres.emplace_back(0.3 * place(random), place(random), 0.3 * place(random));
+    const dem::FixedSpheres fixed(centres, 0.008, reach, period);
+    std::size_t seen = 0;
+    for (int k = 0; k < 500; ++k) {
+        const Vector point(0.3 * place(random), 4 * place(random), 0.3 * place(random));
+        std::vector<dem::FixedSpheres::Near> near;
+        fixed.find_near(point, reach, near);
+        std::vector<std::uint32_t> found, expected;
+        for (const auto& one : near) {
+            found.push_back(one.sphere);
+            EXPECT_EQ(one.centre, fixed.centre_near(one.sphere, point));  // to the bit
+            EXPECT_LT((one.centre - point).norm(), reach);
+        }
+        for (std::uint32_t i = 0; i < centres.size(); ++i)
+            for (int image = -8; image <= 8; ++image)
+                if ((centres[i] + Vector(0, image * period, 0) - point).norm() < reach) expected.push_back(i);
+        EXPECT_EQ(found, expected);
+        seen += found.size();
+        EXPECT_EQ(fixed.highest_near(point.x(), point.y(), reach),
+                  fixed.highest_near(point.x(), point.y() - std::floor(point.y() / period) * period, reach));
+    }
+    EXPECT_GT(seen, 100u);
+}
+
+TEST(Mound, PeriodicEndsLeaveNoHoleBetweenThem) {
+    dem::MoundDescription description{
+        .profile = {{0, 0}, {0.2, 0}}, .y_begin = 0, .y_end = 0.2, .roughness = 0.016, .seed = 7};
+    description.is_periodic = true;
+    std::map<long, std::array<std::pair<double, double>, 2>> ends;  // lowest, highest centre at both ends
+    for (const auto& c : dem::build_mound(description)) {
+        const bool is_first = c.y()<0.008, is_last = c.y()> 0.192;
+        if (!is_first && !is_last) continue;
+        auto& [low, high] = ends.try_emplace(std::lround(c.x() / 0.008 - 0.5),
+                                             std::array{std::pair{1e9, -1e9}, std::pair{1e9, -1e9}})
+                                .first->second[is_last];
+        low = std::min(low, c.z());
+        high = std::max(high, c.z());
+    }
+    EXPECT_EQ(ends.size(), 25u);
+    for (const auto& [place, end] : ends)
+        for (const int side : {0, 1})
+            EXPECT_LE(end[static_cast<std::size_t>(side)].first - 0.004,
+                      end[static_cast<std::size_t>(1 - side)].second + 0.004 + 1e-12);
+}
+
 TEST(Placement, BlocksStartJustAboveTheMound) {
     const auto centres = dem::build_mound(
         {.profile = {{0, -0.2}, {0.3, -0.2}}, .y_begin = 0, .y_end = 0.3, .roughness = 0.008, .seed = 1});
