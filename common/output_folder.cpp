@@ -28,8 +28,8 @@ void remove_files(const fs::path& folder, const Test& test) {
         if (entry.is_regular_file() && test(entry.path().filename().string())) fs::remove(entry.path());
 }
 
-/// True for a finished run of the same scene and input whose windows are all there and whole. `is_damaged`:
-/// they would be, but for a fault.
+/// True for a finished run of the same scene and input whose windows and state are all there and whole.
+/// `is_damaged`: they would be, but for a fault.
 bool is_finished(const fs::path& folder, const RunIdentity& identity, bool& is_damaged) {
     const UpstreamStatus status = read_upstream_status(folder);
     if (status.state != UpstreamStatus::State::done) return false;
@@ -40,6 +40,8 @@ bool is_finished(const fs::path& folder, const RunIdentity& identity, bool& is_d
             if (window.scene_digest != identity.scene_digest || window.input_digest != identity.input_digest)
                 return false;
         }
+        // Nothing is left to go on with, but other runs may start from it.
+        read_data_file(folder / "state.h5");
     } catch (const InputError& fault) {
         fmt::print(stderr, "{}: {}: the finished run is damaged and is computed again\n", identity.stage,
                    fault.what());

@@ -8,7 +8,6 @@
 
 #include "common/errors.hpp"
 #include "common/window_channel.hpp"
-#include "dem/placement.hpp"
 
 namespace dem {
 
@@ -27,7 +26,8 @@ std::unique_ptr<Simulation> build_simulation(const Scene& scene, bool with_water
     return simulation;
 }
 
-void settle(Simulation& simulation, const PackingRules& rules, const std::function<void(double)>& progress) {
+void settle(Simulation& simulation, const PackingRules& rules, const std::string& when,
+            const std::function<void(double)>& progress) {
     constexpr double look_interval = 0.02;  // s; a block falls 2 mm in it
     simulation.start(0);
     int calm = 0;
@@ -45,7 +45,7 @@ void settle(Simulation& simulation, const PackingRules& rules, const std::functi
         if (calm >= 5) return;
     }
     throw common::RunError(
-        fmt::format("packing: blocks still move after {} s; raise dem.packing.longest or dem.packing.speed",
+        fmt::format("{}: blocks still move after {} s; raise dem.packing.longest or dem.packing.speed", when,
                     rules.longest));
 }
 
@@ -64,12 +64,9 @@ void take_over(Simulation& simulation, const PackedPoses& packed, const std::vec
 
 namespace {
 
-double distance(const PackedPoses& poses, const Blocks& blocks, const WirePlace& place, double image) {
-    const auto centre = [&](std::uint32_t block, std::uint32_t sphere) -> Vector {
-        return poses.position[block] + poses.orientation[block] * blocks.shape_of(block).spheres[sphere];
-    };
-    return (centre(place.block_b, place.sphere_b) + Vector(0, image, 0) -
-            centre(place.block_a, place.sphere_a))
+double distance(const Blocks& blocks, const WirePlace& place, double image) {
+    return (blocks.sphere_centre(place.block_b, place.sphere_b) + Vector(0, image, 0) -
+            blocks.sphere_centre(place.block_a, place.sphere_a))
         .norm();
 }
 
@@ -123,17 +120,29 @@ Snapshot snapshot_from_window(const std::filesystem::path& from, const Scene& sc
                             orientation[k] * shape.body_from_file.conjugate(), scene.placed.is_fixed[i] != 0,
                             velocity[k], spin[k]);
     }
+    snapshot.wires.law = geometry.integer("wire_law") == 0 ? WireLaw::hooke : WireLaw::progressive;
+    snapshot.wires.longest_stretch = geometry.number("longest_stretch");
     const auto& ends = geometry.at("/wires/ends").integers();
     const auto& rest = geometry.at("/wires/rest_length").doubles();
     const auto& stiffness = geometry.at("/wires/stiffness").doubles();
+    const auto& image = geometry.at("/wires/image_offset").doubles();
     for (std::size_t w = 0; w < rest.size(); ++w) {
         snapshot.wires.add(static_cast<std::uint32_t>(ends[4 * w]),
                            static_cast<std::uint32_t>(ends[4 * w + 1]),
                            static_cast<std::uint32_t>(ends[4 * w + 2]),
-                           static_cast<std::uint32_t>(ends[4 * w + 3]), rest[w], stiffness[w]);
+                           static_cast<std::uint32_t>(ends[4 * w + 3]), rest[w], stiffness[w], image[w]);
         snapshot.wires.is_intact[w] = window.at("/wires/intact").as_double()[sample * rest.size() + w] > 0.5;
     }
     snapshot.memory.time = snapshot.t;
+    snapshot.memory.waves_reach_blocks = -1;
+    if (sample + 1 == times.size())
+        snapshot.memory.pairs = contacts_from(window.at("/contacts/bodies"), window.at("/contacts/spheres"),
+                                              window.at("/contacts/springs"), nullptr);
+    else
+        snapshot.without_springs = fmt::format(
+            "{}: t = {} s lies inside the window, where contacts have no tangential springs stored: blocks "
+            "jump by some thousandths of an element; its end, t = {} s, has them",
+            from.string(), snapshot.t, times.back());
     return snapshot;
 }
 
@@ -161,9 +170,11 @@ void restore(Simulation& simulation, const Snapshot& snapshot) {
     simulation.restore(snapshot.memory);
 }
 
-void mount_layout(Simulation& simulation, const Scene& scene, const PackedPoses& packed,
-                  const Wires* earlier) {
-    if (!scene.effects.wires) return;
+namespace {
+
+/// The wires of the layout where blocks stand now; with `earlier`, those it already has between the same
+/// spheres keep rest length and damage, unless one of their blocks was put back. `only_kept`: no others.
+Wires layout_wires(const Blocks& blocks, const Scene& scene, const Wires* earlier, bool only_kept) {
     Wires wires;
     wires.law = scene.wires.law;
     wires.longest_stretch = scene.effects.wire_breaking ? scene.wires.psi * scene.element.diameter
@@ -175,45 +186,35 @@ void mount_layout(Simulation& simulation, const Scene& scene, const PackedPoses&
     const auto was_put_back = [&](std::uint32_t block) {
         return std::binary_search(scene.wires.put_back.begin(), scene.wires.put_back.end(), block);
     };
-    const PackedPoses present = poses_of(simulation.blocks);
     const double period = scene.surroundings.period;
     for (const auto& link : scene.wires.links)
         for (const auto& place : wires_of(scene.placed, link, period)) {
             const double stiffness = link.stiffness.value_or(scene.wires.stiffness);
+            const auto old = known.find(place);
+            const bool is_kept =
+                old != known.end() && !was_put_back(place.block_a) && !was_put_back(place.block_b);
+            if (only_kept && !is_kept) continue;
             const double image = nearest_image(scene.placed, place.block_a, place.block_b, period);
-            const double mounted = link.rest_length.value_or(
-                distance(earlier != nullptr ? present : packed, simulation.blocks, place, image) +
-                link.slack);
+            const double mounted = link.rest_length.value_or(distance(blocks, place, image) + link.slack);
             wires.add(place.block_a, place.sphere_a, place.block_b, place.sphere_b, mounted, stiffness,
                       image);
-            const auto old = known.find(place);
-            if (old == known.end() || was_put_back(place.block_a) || was_put_back(place.block_b)) continue;
+            if (!is_kept) continue;
             wires.rest_length.back() = earlier->rest_length[old->second];
             wires.is_intact.back() = earlier->is_intact[old->second];
             wires.broken_at.back() = earlier->broken_at[old->second];
             wires.largest_tension.back() = earlier->largest_tension[old->second];
         }
-    simulation.mount_wires(std::move(wires));
+    return wires;
 }
 
-void put_back(Simulation& simulation, const std::vector<std::uint32_t>& chosen, const PackedPoses& packed) {
-    Blocks& blocks = simulation.blocks;
-    for (const auto i : chosen)
-        blocks.place(i, packed.position[i], packed.orientation[i], Vector::Zero(), Vector::Zero());
-    // As a crane would: up until free of the neighbours, then let go. What rests against a wall may stay
-    // pressed a little.
-    const double step = 0.05 * blocks.shape_of(0).diameter, free = 0.02 * blocks.shape_of(0).diameter;
-    const double highest = 3 * blocks.shape_of(0).height;
-    for (const auto i : chosen) {
-        double lift = 0;
-        for (; deepest_overlap(blocks, simulation.surroundings(), i).depth > free && lift < highest;
-             lift += step)
-            blocks.position[i].z() = packed.position[i].z() + lift + step;
-        if (lift >= highest)
-            throw common::InputError(fmt::format(
-                "wires.put_back: block {} does not fit back into its place, not even lifted by {:.2g} m",
-                i + 1, lift));
-    }
+}  // namespace
+
+void mount_layout(Simulation& simulation, const Scene& scene, const Wires* earlier) {
+    if (scene.effects.wires) simulation.mount_wires(layout_wires(simulation.blocks, scene, earlier, false));
+}
+
+Wires kept_wires(const Blocks& blocks, const Scene& scene, const Wires& earlier) {
+    return layout_wires(blocks, scene, &earlier, true);
 }
 
 }  // namespace dem

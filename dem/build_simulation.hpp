@@ -16,17 +16,19 @@ namespace dem {
 std::unique_ptr<Simulation> build_simulation(const Scene& scene, bool with_water);
 
 /// Lets the blocks settle in still water. `progress` is called now and then with the time.
-/// Throws common::RunError when they do not come to rest in time.
-void settle(Simulation& simulation, const PackingRules& rules, const std::function<void(double)>& progress);
+/// Throws common::RunError, beginning with `when`, when they do not come to rest in time.
+void settle(Simulation& simulation, const PackingRules& rules, const std::string& when,
+            const std::function<void(double)>& progress);
 
 /// Takes up settled poses and their contacts, at rest.
 void take_over(Simulation& simulation, const PackedPoses& packed, const std::vector<TouchingPair>& contacts);
 
 /// Mounts the layout. Wires that `earlier` (may be null) already has between the same spheres keep rest
-/// length and damage, unless one of their blocks was put back; new ones take the distance at packing, or the
-/// present one in a restart.
-void mount_layout(Simulation& simulation, const Scene& scene, const PackedPoses& packed,
-                  const Wires* earlier);
+/// length and damage, unless one of their blocks was put back; new ones take the present distance.
+void mount_layout(Simulation& simulation, const Scene& scene, const Wires* earlier);
+
+/// Of the layout, the wires that are kept from an earlier run.
+Wires kept_wires(const Blocks& blocks, const Scene& scene, const Wires& earlier);
 
 /// A state or a window of an earlier run (`dem.restart.time` chooses the instant of a window).
 /// Throws common::InputError when it belongs to another scene.
@@ -34,9 +36,6 @@ Snapshot read_start(const std::filesystem::path& from, const Scene& scene);
 
 /// Puts poses, speeds and contacts of a snapshot into the simulation.
 void restore(Simulation& simulation, const Snapshot& snapshot);
-
-/// Puts blocks back to their packed pose, lifted just clear of their neighbours, at rest.
-void put_back(Simulation& simulation, const std::vector<std::uint32_t>& chosen, const PackedPoses& packed);
 
 PackedPoses poses_of(const Blocks& blocks);
 

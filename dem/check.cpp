@@ -32,7 +32,7 @@ StepWork work_of_a_step(const Scene& scene) {
     simulation->start(0);
     // Blocks are placed a tenth of an element above the mound; they are down after sqrt(2 h / g) = 0.02 s.
     simulation->advance(0.05);
-    mount_layout(*simulation, scene, poses_of(simulation->blocks), nullptr);
+    mount_layout(*simulation, scene, nullptr);
     const auto before = simulation->steps();
     const double begun = simulation->time();
     double spent = 0;

@@ -1,4 +1,5 @@
 /// dem: armour blocks of spheres, their contacts and wires, moved by the near field.
+#include <fmt/format.h>
 #include <gsl/gsl_errno.h>
 
 #include <optional>
@@ -7,6 +8,28 @@
 #include "common/parallel.hpp"
 #include "common/stage_command.hpp"
 #include "dem/run.hpp"
+
+namespace {
+
+/// Keys that change an earlier run mean nothing without one.
+void refuse_without_earlier_run(const common::StageCommand& command, const common::SceneFile& file,
+                                const common::SceneFile* layout) {
+    if (!command.from.empty()) return;
+    const auto refuse = [&](const common::Section& section, const char* key, const char* what) {
+        if (!section.has(key)) return;
+        section.problem(key,
+                        command.verb == common::StageCommand::Verb::pack
+                            ? fmt::format("{} an earlier run; it does not belong in what is packed", what)
+                            : fmt::format("{} an earlier run; it needs --from", what));
+    };
+    refuse((layout != nullptr ? *layout : file).section("wires"), "put_back", "puts back blocks of");
+    const common::Section restart = file.section("dem").table("restart");
+    refuse(restart, "time", "chooses an instant of");
+    refuse(restart, "calm", "lets settle the blocks of");
+    refuse(restart, "clock", "sets the clock of a run that goes on from");
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
     return common::run_guarded("dem", [&] {
@@ -30,14 +53,7 @@ int main(int argc, char** argv) {
                     layout->root().problem(key, "does not belong in a layout, which holds [wires] only");
         }
         const dem::Scene scene = dem::read_scene(file, layout ? &*layout : nullptr);
-        const common::Section wires = (layout ? *layout : file).section("wires");
-        if (command.from.empty() && wires.has("put_back"))
-            wires.problem(
-                "put_back",
-                command.verb == Verb::pack
-                    ? "puts blocks of an earlier run back; it does not belong in what is packed, but in "
-                      "a layout for --wires"
-                    : "puts blocks of an earlier run back to where they were packed; it needs --from");
+        refuse_without_earlier_run(command, file, layout ? &*layout : nullptr);
         file.finish();
         if (layout) layout->finish();
         if (command.verb == Verb::check) dem::check(command, file, scene);

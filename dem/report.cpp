@@ -106,7 +106,38 @@ void Report::window_done(const Simulation& simulation, const PackedPoses& packed
     record_.write_running();
 }
 
+void Report::warn(const std::string& name, const std::string& message) {
+    fmt::print(stderr, "dem: warning: {}\n", message);
+    keep_warning(name, message);
+}
+
+void Report::keep_warning(const std::string& name, const std::string& message) {
+    warning_name_ = name;
+    warning_ = message;
+    record_.set_note(name, message);
+}
+
+void Report::began_calm(const CalmRecord& record) {
+    calm_ = record;
+    record_.set_figure("restart.settling_time", record.settling);
+    if (scene_.wires.put_back.empty()) return;
+    record_.set_figure("put_back.blocks", static_cast<double>(record.blocks));
+    record_.set_figure("put_back.mean_distance_placed", record.mean_placed);
+    record_.set_figure("put_back.largest_distance_placed", record.largest_placed);
+    record_.set_figure("put_back.mean_distance_settled", record.mean_settled);
+    record_.set_figure("put_back.largest_distance_settled", record.largest_settled);
+}
+
 void Report::store(common::DataFile& state) const {
+    if (!warning_.empty()) {
+        state.attributes["warning_name"] = warning_name_;
+        state.attributes["warning"] = warning_;
+    }
+    if (calm_)
+        state.datasets["/calm"] =
+            common::real64("-, m, m, m, m, s", {6},
+                           {static_cast<double>(calm_->blocks), calm_->mean_placed, calm_->largest_placed,
+                            calm_->mean_settled, calm_->largest_settled, calm_->settling});
     state.attributes["first_balance"] = first_balance_;
     state.attributes["first_size"] = first_size_;
     state.attributes["smallest_limit"] = smallest_limit_;
@@ -118,6 +149,12 @@ void Report::restore(const common::DataFile& state) {
     first_size_ = state.number("first_size");
     smallest_limit_ = state.number("smallest_limit");
     past_limit_ = static_cast<int>(state.integer("past_limit"));
+    if (state.attributes.contains("warning")) keep_warning(state.text("warning_name"), state.text("warning"));
+    if (state.has("/calm")) {
+        const auto& kept = state.at("/calm").doubles();
+        began_calm({static_cast<std::size_t>(kept.at(0)), kept.at(1), kept.at(2), kept.at(3), kept.at(4),
+                    kept.at(5)});
+    }
     first_block_steps_ = static_cast<std::uint64_t>(state.integer("awake_block_steps"));
 }
 

@@ -6,6 +6,7 @@
 #include "common/run_record.hpp"
 #include "dem/scene.hpp"
 #include "dem/snapshot.hpp"
+#include "dem/start.hpp"
 
 namespace dem {
 
@@ -21,6 +22,10 @@ class Report {
     void look(const Simulation& simulation);
     /// Figures and invariants at the end of a window.
     void window_done(const Simulation& simulation, const PackedPoses& packed, std::int64_t windows);
+    /// Something the user must know, on the terminal and as a note in run.json.
+    void warn(const std::string& name, const std::string& message);
+    /// How blocks came to rest before the run, and those put back.
+    void began_calm(const CalmRecord& record);
     void end(const std::string& status, const std::string& message = {});
     /// Wall time of a phase: "packing", "flow", "steps", "output".
     void add_time(const std::string& phase, double seconds);
@@ -29,8 +34,11 @@ class Report {
     void restore(const common::DataFile& state);
 
  private:
+    void keep_warning(const std::string& name, const std::string& message);
     common::RunRecord record_;
     const Scene& scene_;
+    std::optional<CalmRecord> calm_;
+    std::string warning_name_, warning_;
     double first_balance_ = 0, first_size_ = 0, smallest_limit_, stepping_seconds_ = 0;
     int past_limit_ = 0;                   ///< samples in a row
     std::uint64_t first_block_steps_ = 0;  ///< of the run this one goes on from

@@ -14,6 +14,7 @@
 #include "dem/build_simulation.hpp"
 #include "dem/flow_windows.hpp"
 #include "dem/report.hpp"
+#include "dem/start.hpp"
 #include "dem/window_output.hpp"
 
 namespace dem {
@@ -87,41 +88,6 @@ class FlowSource {
     std::int64_t first_ = 0;
 };
 
-/// Blocks ready to go, where their displacement is measured from, and when the run starts.
-struct Start {
-    std::unique_ptr<Simulation> simulation;
-    PackedPoses packed;
-    std::optional<double> t;  ///< of an earlier run; a packing has none
-};
-
-Start packed_start(const Scene& scene, common::Progress& progress) {
-    Start start{.simulation = build_simulation(scene, true), .packed = {}, .t = {}};
-    if (scene.packing.settle) {
-        const auto packing = build_simulation(scene, true);
-        if (packing->water() != nullptr)
-            packing->water()->set_motion(UniformWater{.element_diameter = scene.element.diameter});
-        settle(*packing, scene.packing, [&](double t) { progress.update(t, "packing"); });
-        take_over(*start.simulation, poses_of(packing->blocks), packing->memory().pairs);
-    }
-    start.packed = poses_of(start.simulation->blocks);
-    return start;
-}
-
-Start start_from(const std::filesystem::path& from, const Scene& scene) {
-    const Snapshot snapshot = read_start(from, scene);
-    Start start{.simulation = build_simulation(scene, true), .packed = snapshot.packed, .t = {}};
-    if (snapshot.is_packing) {
-        take_over(*start.simulation, snapshot.packed, snapshot.memory.pairs);
-        start.packed = poses_of(start.simulation->blocks);
-    } else {
-        start.t = snapshot.t;
-        restore(*start.simulation, snapshot);
-    }
-    if (!scene.wires.put_back.empty()) put_back(*start.simulation, scene.wires.put_back, start.packed);
-    mount_layout(*start.simulation, scene, start.packed, snapshot.is_packing ? nullptr : &snapshot.wires);
-    return start;
-}
-
 /// Where the run starts, after all that its input must hold has been looked at; throws InputError.
 struct Entry {
     std::optional<Start> earlier;
@@ -183,7 +149,7 @@ common::Window advance(Simulation& simulation, const PackedPoses& packed, const 
     }
     report.add_time("steps", stepping);
     report.add_time("output", recording);
-    return output.take(index);
+    return output.take(index, simulation);
 }
 
 }  // namespace
@@ -210,7 +176,7 @@ void pack(const common::StageCommand& command, const common::SceneFile& file, co
         simulation->start(0);
         report.set_first_energy(simulation->energy());
         output.record(*simulation, placed);
-        settle(*simulation, scene.packing, [&](double t) {
+        settle(*simulation, scene.packing, "packing", [&](double t) {
             output.record(*simulation, placed);
             progress.update(t, "packing");
         });
@@ -222,7 +188,7 @@ void pack(const common::StageCommand& command, const common::SceneFile& file, co
         snapshot.is_packing = true;
         report.look(*simulation);
         report.look(*simulation);
-        folder.publish(output.take(0), to_data_file(snapshot));
+        folder.publish(output.take(0, *simulation), to_data_file(snapshot));
         report.window_done(*simulation, placed, 1);
     } catch (const std::exception& error) {
         report.end(dynamic_cast<const common::Interrupted*>(&error) != nullptr ? "interrupted" : "failed",
@@ -251,7 +217,7 @@ void run(const common::StageCommand& command, const common::SceneFile& file, con
         std::optional<FlowSource::Span> span = flow.receive(folder.next_window());
         if (folder.start() == common::OutputFolder::Start::go_on) {
             const Snapshot snapshot = snapshot_from(folder.state());
-            start = {.simulation = build_simulation(scene, true), .packed = snapshot.packed, .t = snapshot.t};
+            start = {.simulation = build_simulation(scene, true), .packed = snapshot.packed};
             if (scene.effects.wires) start.simulation->mount_wires(snapshot.wires);
             restore(*start.simulation, snapshot);
             report.restore(folder.state());
@@ -260,9 +226,13 @@ void run(const common::StageCommand& command, const common::SceneFile& file, con
             {
                 common::PhaseTimer timer(packing);
                 start = earlier ? std::move(*earlier) : packed_start(scene, progress);
+                calm_down(start, scene, begin, progress);
             }
             report.add_time("packing", packing);
-            if (!earlier) mount_layout(*start.simulation, scene, start.packed, nullptr);
+            if (scene.effects.tangential_history && !start.without_springs.empty() && !start.calm)
+                report.warn("restart.springs", start.without_springs);
+            if (start.calm) report.began_calm(*start.calm);
+            mount_layout(*start.simulation, scene, start.earlier_wires ? &*start.earlier_wires : nullptr);
             flow.require_cover(start.simulation->blocks);
             if (span && span->grid && start.simulation->water() != nullptr)
                 start.simulation->water()->set_motion(*span->grid);

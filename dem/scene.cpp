@@ -130,6 +130,10 @@ Scene read_scene(const SceneFile& file, const SceneFile* layout) {
     if (restart.has("clock"))
         scene.restart_clock = restart.number(
             "clock", "s", "time at which the new run starts; default: the same instant", Range::any(), 0.0);
+    if (restart.has("calm"))
+        scene.restart_calm = restart.boolean(
+            "calm", "blocks settle in still water before the new run starts; always where some are put back",
+            false);
     read_blocks(file, scene);
     read_wires(file, layout, scene);
     choose_effects(file, dry, scene);

@@ -66,6 +66,7 @@ struct Scene {
     PackingRules packing;
     WireRules wires;
     std::optional<double> restart_time, restart_clock;
+    bool restart_calm = false;  ///< blocks of an earlier run settle in still water first
     Effects effects;
 };
 

@@ -73,7 +73,12 @@ class LinkReader {
         if (section.has("blocks"))
             for (const double number :
                  section.numbers("blocks", "-", "blocks put back to their packed pose", 0, Range::any()))
-                if (std::uint32_t found = 0; block(section, "blocks", number, found)) chosen.insert(found);
+                if (std::uint32_t found = 0; block(section, "blocks", number, found)) {
+                    if (scene_.placed.is_fixed[found] != 0)
+                        section.problem(
+                            "blocks", fmt::format("block {} is fixed: it is where it was packed", found + 1));
+                    chosen.insert(found);
+                }
         scene_.wires.put_back.assign(chosen.begin(), chosen.end());
     }
 

@@ -83,52 +83,12 @@ std::vector<std::int32_t> as_integers(const auto& values) {
     return {values.begin(), values.end()};
 }
 
-void store_contacts(const std::vector<TouchingPair>& pairs, DataFile& file) {
-    std::vector<std::int32_t> bodies, spheres;
-    std::vector<double> sums, springs;
-    for (const auto& pair : pairs) {
-        for (const auto number : {pair.block, pair.partner})
-            bodies.push_back(static_cast<std::int32_t>(number));
-        bodies.push_back(pair.image);
-        bodies.push_back(static_cast<std::int32_t>(pair.contacts.size()));
+void store_sums(const std::vector<TouchingPair>& pairs, DataFile& file) {
+    std::vector<double> sums;
+    for (const auto& pair : pairs)
         for (const Vector& sum : {pair.last.force, pair.last.torque_on_block, pair.last.offset})
             sums.insert(sums.end(), sum.data(), sum.data() + 3);
-        for (const auto& contact : pair.contacts) {
-            spheres.push_back(static_cast<std::int32_t>(contact.a));
-            spheres.push_back(static_cast<std::int32_t>(contact.b));
-            springs.push_back(contact.stiffness);
-            springs.insert(springs.end(), contact.spring.data(), contact.spring.data() + 3);
-        }
-    }
-    const std::size_t contacts = spheres.size() / 2;
-    file.datasets["/contacts/bodies"] = integer32("-", {pairs.size(), 4}, std::move(bodies));
     file.datasets["/contacts/sums"] = real64("N, N m, m", {pairs.size(), 9}, std::move(sums));
-    file.datasets["/contacts/spheres"] = integer32("-", {contacts, 2}, std::move(spheres));
-    file.datasets["/contacts/springs"] = real64("N/m, N", {contacts, 4}, std::move(springs));
-}
-
-std::vector<TouchingPair> contacts_from(const DataFile& file) {
-    const auto& bodies = file.at("/contacts/bodies").integers();
-    const auto& spheres = file.at("/contacts/spheres").integers();
-    const auto& sums = file.at("/contacts/sums").doubles();
-    const auto& springs = file.at("/contacts/springs").doubles();
-    std::vector<TouchingPair> pairs;
-    std::size_t next = 0;
-    for (std::size_t k = 0; 4 * k + 3 < bodies.size(); ++k) {
-        TouchingPair pair;
-        pair.block = static_cast<std::uint32_t>(bodies[4 * k]);
-        pair.partner = static_cast<std::uint32_t>(bodies[4 * k + 1]);
-        pair.image = bodies[4 * k + 2];
-        pair.last.force = Vector(sums.data() + 9 * k);
-        pair.last.torque_on_block = Vector(sums.data() + 9 * k + 3);
-        pair.last.offset = Vector(sums.data() + 9 * k + 6);
-        for (std::int32_t c = 0; c < bodies[4 * k + 3]; ++c, ++next)
-            pair.contacts.push_back({static_cast<std::uint32_t>(spheres.at(2 * next)),
-                                     static_cast<std::uint32_t>(spheres.at(2 * next + 1)),
-                                     springs.at(4 * next), Vector(springs.data() + 4 * next + 1)});
-        pairs.push_back(std::move(pair));
-    }
-    return pairs;
 }
 
 void store_wires(const Wires& wires, DataFile& file) {
@@ -175,6 +135,57 @@ Wires wires_from(const DataFile& file) {
 
 }  // namespace
 
+void store_contacts(const std::vector<TouchingPair>& pairs, std::map<std::string, Dataset>& datasets) {
+    std::vector<std::int32_t> bodies, spheres;
+    std::vector<double> springs;
+    for (const auto& pair : pairs) {
+        for (const auto number : {pair.block, pair.partner})
+            bodies.push_back(static_cast<std::int32_t>(number));
+        bodies.push_back(pair.image);
+        bodies.push_back(static_cast<std::int32_t>(pair.contacts.size()));
+        for (const auto& contact : pair.contacts) {
+            spheres.push_back(static_cast<std::int32_t>(contact.a));
+            spheres.push_back(static_cast<std::int32_t>(contact.b));
+            springs.push_back(contact.stiffness);
+            springs.insert(springs.end(), contact.spring.data(), contact.spring.data() + 3);
+        }
+    }
+    const std::size_t contacts = spheres.size() / 2;
+    datasets["/contacts/bodies"] = integer32("-", {pairs.size(), 4}, std::move(bodies));
+    datasets["/contacts/spheres"] = integer32("-", {contacts, 2}, std::move(spheres));
+    datasets["/contacts/springs"] = real64("N/m, N", {contacts, 4}, std::move(springs));
+}
+
+std::vector<TouchingPair> contacts_from(const Dataset& bodies_of, const Dataset& spheres_of,
+                                        const Dataset& springs_of, const Dataset* sums) {
+    const auto& bodies = bodies_of.integers();
+    const auto& spheres = spheres_of.integers();
+    const auto& springs = springs_of.doubles();
+    std::vector<TouchingPair> pairs;
+    std::size_t next = 0;
+    for (std::size_t k = 0; 4 * k + 3 < bodies.size(); ++k) {
+        TouchingPair pair;
+        pair.block = static_cast<std::uint32_t>(bodies[4 * k]);
+        pair.partner = static_cast<std::uint32_t>(bodies[4 * k + 1]);
+        pair.image = bodies[4 * k + 2];
+        if (sums != nullptr) {
+            const double* sum = sums->doubles().data() + 9 * k;
+            pair.last.force = Vector(sum);
+            pair.last.torque_on_block = Vector(sum + 3);
+            pair.last.offset = Vector(sum + 6);
+        }
+        for (std::int32_t c = 0; c < bodies[4 * k + 3]; ++c, ++next) {
+            if (2 * next + 1 >= spheres.size() || 4 * next + 3 >= springs.size())
+                throw common::InputError("/contacts/bodies names more contacts than there are");
+            pair.contacts.push_back({static_cast<std::uint32_t>(spheres[2 * next]),
+                                     static_cast<std::uint32_t>(spheres[2 * next + 1]), springs[4 * next],
+                                     Vector(springs.data() + 4 * next + 1)});
+        }
+        pairs.push_back(std::move(pair));
+    }
+    return pairs;
+}
+
 DataFile to_data_file(const Snapshot& snapshot) {
     DataFile file;
     const Blocks& blocks = snapshot.blocks;
@@ -204,7 +215,8 @@ DataFile to_data_file(const Snapshot& snapshot) {
     file.datasets["/packed/position"] = real64("m", {count, 3}, flat(snapshot.packed.position));
     file.datasets["/packed/orientation"] = real64("-", {count, 4}, flat(snapshot.packed.orientation));
     store_wires(snapshot.wires, file);
-    store_contacts(memory.pairs, file);
+    store_contacts(memory.pairs, file.datasets);
+    store_sums(memory.pairs, file);
     if (memory.sleeping) {
         file.datasets["/sleeping/asleep"] = integer32("-", {count}, as_integers(memory.sleeping->asleep));
         file.datasets["/sleeping/position"] = real64("m", {count, 3}, flat(memory.sleeping->position));
@@ -238,7 +250,8 @@ Snapshot snapshot_from(const DataFile& file) {
     snapshot.packed.orientation = quaternions_from(file.at("/packed/orientation"));
     snapshot.wires = wires_from(file);
     auto& memory = snapshot.memory;
-    memory.pairs = contacts_from(file);
+    memory.pairs = contacts_from(file.at("/contacts/bodies"), file.at("/contacts/spheres"),
+                                 file.at("/contacts/springs"), &file.at("/contacts/sums"));
     memory.time = snapshot.t;
     memory.dissipated = file.number("dissipated");
     memory.water_work = file.number("water_work");

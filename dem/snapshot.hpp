@@ -1,6 +1,7 @@
 /// All that a run needs to go on bit for bit, as a file: state.h5.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct Snapshot {
     PackedPoses packed;
     Wires wires;
     Simulation::Memory memory{};
+    std::string
+        without_springs{};  ///< why contacts come without their tangential springs; empty: they do not
 };
 
 /// Digest of shapes, placed blocks, fixed spheres and planes.
@@ -34,6 +37,14 @@ common::DataFile to_data_file(const Snapshot& snapshot);
 /// Throws common::InputError naming the dataset at fault. `blocks` of the result carry no shapes: give them
 /// those of the scene.
 Snapshot snapshot_from(const common::DataFile& file);
+
+/// Contacts and their tangential springs, as datasets of a window: /contacts/bodies (block, partner, image,
+/// contacts of the pair), /contacts/spheres (of the two bodies), /contacts/springs (normal stiffness, N/m,
+/// and tangential force, N, of each contact).
+void store_contacts(const std::vector<TouchingPair>& pairs, std::map<std::string, common::Dataset>& datasets);
+/// The same back. `sums`: forces of the pairs, or null. Throws common::InputError when they do not agree.
+std::vector<TouchingPair> contacts_from(const common::Dataset& bodies, const common::Dataset& spheres,
+                                        const common::Dataset& springs, const common::Dataset* sums);
 
 /// Rows of three (or w, x, y, z) for files.
 std::vector<double> flat(const std::vector<Vector>& vectors);

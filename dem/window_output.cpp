@@ -55,7 +55,7 @@ void WindowOutput::record(const Simulation& simulation, const PackedPoses& packe
     asleep_.push_back(static_cast<std::int32_t>(simulation.asleep_count()));
 }
 
-common::Window WindowOutput::take(std::int64_t index) {
+common::Window WindowOutput::take(std::int64_t index, const Simulation& simulation) {
     common::Window window;
     window.index = index;
     window.t_begin = time_.front();
@@ -73,6 +73,7 @@ common::Window WindowOutput::take(std::int64_t index) {
     data["/wires/intact"] = integer32("-", {nt, nw}, std::move(intact_));
     data["/wires/tension_range"] = real64("N", {nt, 2}, std::move(tension_range_));
     data["/energy"] = real64("J", {nt, 6}, std::move(energy_));
+    store_contacts(simulation.pair_list().touching(), data);
     *this = WindowOutput{};
     return window;
 }
@@ -121,6 +122,8 @@ common::DataFile geometry_of(const Simulation& simulation, const PackedPoses& pa
     for (std::size_t k = 0; k < wires.size(); ++k)
         for (const auto number : {wires.block_a[k], wires.sphere_a[k], wires.block_b[k], wires.sphere_b[k]})
             ends.push_back(static_cast<std::int32_t>(number));
+    file.attributes["wire_law"] = static_cast<std::int64_t>(wires.law);
+    file.attributes["longest_stretch"] = wires.longest_stretch;
     file.datasets["/wires/ends"] = integer32("-", {wires.size(), 4}, std::move(ends));
     file.datasets["/wires/image_offset"] = real64("m", {wires.size()}, wires.image_offset);
     file.datasets["/wires/rest_length"] = real64("m", {wires.size()}, wires.rest_length);

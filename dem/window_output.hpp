@@ -14,8 +14,8 @@ namespace dem {
 class WindowOutput {
  public:
     void record(const Simulation& simulation, const PackedPoses& packed);
-    /// The recorded samples as window `index`; forgets them.
-    common::Window take(std::int64_t index);
+    /// The recorded samples as window `index`, with the contacts of its last instant; forgets them.
+    common::Window take(std::int64_t index, const Simulation& simulation);
 
  private:
     std::size_t blocks_ = 0, wires_ = 0;

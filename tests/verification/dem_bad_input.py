@@ -114,6 +114,13 @@ refused("the same in the scene itself", put("[wires.put_back]\nblocks = [1]\n"),
 refused("check of a layout that puts blocks back", GOOD, "layout.toml:3:", "wires.put_back", "needs --from", arguments=("--wires", layout), verb="check")
 refused("packing of a scene that puts blocks back", put("[wires.put_back]\nblocks = [1]\n"), "scene.toml:17:", "wires.put_back", "does not belong", verb="pack")
 
+for key, value in (("time", "0.05"), ("clock", "0.0"), ("calm", "true")):
+    text = put(f"[dem.restart]\n{key} = {value}\n")
+    refused(f"dem.restart.{key} in a run that goes on from none", text, "scene.toml:18:", f"dem.restart.{key}", "needs --from")
+    refused(f"check of the same, {key}", text, "scene.toml:18:", f"dem.restart.{key}", "needs --from", verb="check")
+    refused(f"packing of the same, {key}", text, "scene.toml:18:", f"dem.restart.{key}", "does not belong", verb="pack")
+refused("dem.restart.clock by --set", GOOD, "dem.restart.clock", "needs --from", arguments=("--set", "dem.restart.clock=0.1"))
+
 packed = run(GOOD, verb="pack")
 check.true("packing for the state tests", packed.status == 0, packed.message)
 state = os.path.join(packed.folder, "state.h5")
@@ -122,6 +129,8 @@ check.true("check of the same layout with a state to put blocks back in", checke
 refused("check against a state of another scene", put("", "roughness = 0.004", "roughness = 0.004\nseed = 2"), "state of another scene",
         arguments=("--from", state), verb="check")
 refused("state of another scene", put("", "roughness = 0.004", "roughness = 0.004\nseed = 2"), "state of another scene", arguments=("--from", state))
+fixed = put('[[dem.block]]\nshape = "sphere"\nposition = [0.05, 0.05, 0.1]\nfixed = true\n[wires.put_back]\nblocks = [2, 5]\n')
+refused("fixed block put back", fixed, "scene.toml:22:", "wires.put_back.blocks", "block 5 is fixed", arguments=("--from", state))
 with open(state, "rb") as f:
     content = f.read()
 with open(state + ".cut", "wb") as f:

@@ -3,9 +3,11 @@
     make -C workflows paper                      (SMOKE=1: two seeds, first waves at draft accuracy)
 
 The flow is OUT/flow of `make chain` or `make flow`; without it the chain is run first. Clock: t = 0 when waves reach the blocks.
-Case 1 runs to 11.67 s after that; case 2 starts there with row 2 put back and its layout mounted, and meets the same waves again.
+Case 1 runs to 11.67 s after that; case 2 starts there, in calm water, with row 2 put back and its layout mounted, and meets the same
+waves again, as does case 1 gone on with from the same calm ("control").
 Writes paper_displacement.csv (a row a case and seed), paper_psi.csv (damage against psi), paper_tension.csv (f_max and f_min at
-the paper's instants), paper_summary.json (what came out and what did not) and pictures of each.
+the paper's instants), paper_arch.csv (tensions along and across, in the middle and at the ends), paper_summary.json (what came out
+and what did not) and pictures of each.
 """
 import argparse
 import csv
@@ -71,6 +73,13 @@ def displacement(folder):
     return numpy.linalg.norm(way, axis=1)[free], -way[free, 0]
 
 
+def excursion(folder):
+    """Farthest that every free block came from where it stood at the first sample of this run, m."""
+    time, position = run_folder.read_series(folder, "/blocks/position")
+    free = run_folder.read_geometry(folder)["/blocks/fixed"] == 0
+    return numpy.linalg.norm(position[:, free] - position[0, free], axis=2).max(axis=0)
+
+
 def groups(folder):
     """Which free blocks carry a wire, and which stand at the sea side (rows 4 and 5) without one."""
     geometry = run_folder.read_geometry(folder)
@@ -79,10 +88,26 @@ def groups(folder):
     return wired, ~wired & (free >= 60)
 
 
-def left_alone(count):
-    """All blocks but row 2, which case 2 puts back: its settling is no answer to the waves."""
-    block = numpy.arange(count)
-    return (block < 20) | (block >= 40)
+COLUMNS, MIDDLE = 20, range(5, 15)  # of a row; those that count as its middle, from 0
+
+
+def tensions_by_place(folder, first, last):
+    """Largest tension of each link (sum over its wires) at the samples from `first` to `last`, or at the nearest one; its mean over
+    links along the breakwater and across it, in the middle of the width and at the ends, N. NaN where there is no such link."""
+    time, tension = run_folder.read_series(folder, "/wires/tension")
+    ends = run_folder.read_geometry(folder)["/wires/ends"]
+    links, link_of_wire = numpy.unique(ends[:, [0, 2]], axis=0, return_inverse=True)
+    chosen = tension[(time > first) & (time < last)]
+    if len(chosen) == 0:
+        chosen = tension[[numpy.abs(time - first).argmin()]]
+    largest = numpy.array([numpy.bincount(link_of_wire, sample, len(links)) for sample in chosen]).max(axis=0)
+    is_along = links[:, 0] // COLUMNS == links[:, 1] // COLUMNS
+    in_middle = numpy.isin(links[:, 0] % COLUMNS, MIDDLE)
+
+    def mean_of(which):
+        return float(largest[which].mean()) if which.any() else float("nan")
+    return {"along_middle_N": mean_of(is_along & in_middle), "along_ends_N": mean_of(is_along & ~in_middle),
+            "across_middle_N": mean_of(~is_along & in_middle), "across_ends_N": mean_of(~is_along & ~in_middle)}
 
 
 def tension_at(folder, instant):
@@ -109,26 +134,29 @@ probe = dem("run", runs / "probe", "--flow", flow, *(["--set", f"time.end={SHORT
 arrival = run_folder.read_run(probe)["figures"]["clock"]["waves_reach_blocks"]
 flow_end = run_folder.read_run(probe)["figures"]["clock"]["end"]
 end = min(arrival + (SHORT_STRETCH if options.smoke else END), flow_end)
-rows, tensions = [], []
+rows, tensions, arches = [], [], []
 for seed in seeds:
     pack = dem("pack", runs / f"pack_{seed}", seed=seed)
     case1 = dem("run", runs / f"case1_{seed}", "--flow", flow, "--wires", layouts["case1"], "--from", pack / "state.h5",
                 "--set", f"time.end={end}", seed=seed)
     case2 = dem("run", runs / f"case2_{seed}", "--flow", flow, "--wires", layouts["case2"], "--from", case1 / "state.h5",
                 "--set", f"time.end={end}", "--set", f"dem.restart.clock={arrival}", seed=seed)
-    # The same layout as case 1, from the same start as case 2: what the added wires are worth.
+    # The same layout as case 1, from the same calm as case 2: what the added wires are worth.
     control = dem("run", runs / f"control_{seed}", "--flow", flow, "--wires", layouts["case1"], "--from", case1 / "state.h5",
-                  "--set", f"time.end={end}", "--set", f"dem.restart.clock={arrival}", seed=seed)
+                  "--set", f"time.end={end}", "--set", f"dem.restart.clock={arrival}", "--set", "dem.restart.calm=true", seed=seed)
     unwired = dem("run", runs / f"unwired_{seed}", "--flow", flow, "--from", pack / "state.h5", "--set", f"time.end={end}", seed=seed)
     wired, bare = groups(case1)
     for name, folder in (("case1", case1), ("case2", case2), ("control", control), ("unwired", unwired)):
         total, offshore = displacement(folder)
         figures = run_folder.read_run(folder)["figures"]
-        others = left_alone(len(total))
+        farthest = excursion(folder)
         rows.append({"case": name, "seed": seed, "wired_mean_m": total[wired].mean(), "wired_offshore_m": offshore[wired].mean(),
                      "unwired_sea_side_mean_m": total[bare].mean(), "unwired_sea_side_offshore_m": offshore[bare].mean(),
-                     "all_mean_m": total[others].mean(), "all_offshore_m": offshore[others].mean(), "largest_m": total[others].max(),
-                     "largest_offshore_m": offshore[others].max(),
+                     "all_mean_m": total.mean(), "all_offshore_m": offshore.mean(), "largest_m": total.max(),
+                     "largest_offshore_m": offshore.max(), "excursion_mean_m": farthest.mean(), "excursion_row_5_m": farthest[80:].mean(),
+                     "excursion_largest_m": farthest.max(),
+                     "put_back_mean_m": figures.get("put_back", {}).get("mean_distance_settled", ""),
+                     "put_back_largest_m": figures.get("put_back", {}).get("largest_distance_settled", ""),
                      "broken_wires": figures["wires"]["broken"], "largest_tension_N": figures["wires"]["largest_tension"],
                      "wall_s": run_folder.read_run(folder)["wall_time"]})
     for name, folder in (("case1", case1), ("case2", case2)):
@@ -140,7 +168,11 @@ for seed in seeds:
             tensions.append({"case": name, "seed": seed, "t_after_arrival_s": label, "f_max_N": tension.max(initial=0),
                              "f_min_N": pulled.min() if len(pulled) else 0.0, "wires_in_tension": len(pulled),
                              "wires": len(tension), "cross_78_N": tension[cross_78].sum()})
+        for label, first, last in (("9.99", arrival + INSTANT, arrival + INSTANT), ("11.67", end, end), ("largest", arrival, end)):
+            if last <= end:
+                arches.append({"case": name, "seed": seed, "t_after_arrival_s": label, **tensions_by_place(folder, first, last)})
 write_csv("paper_displacement.csv", rows)
+write_csv("paper_arch.csv", arches)
 write_csv("paper_tension.csv", tensions)
 
 psi_rows = []
@@ -164,17 +196,26 @@ def column(case, key):
 summary = {"waves_reach_blocks_s": arrival, "end_s": end, "seeds": len(seeds), "mean and half width of 95 % interval": {}}
 for case in ("case1", "case2", "control", "unwired"):
     summary["mean and half width of 95 % interval"][case] = {key: mean_and_spread(column(case, key)) for key in
-                                   ("wired_mean_m", "wired_offshore_m", "unwired_sea_side_mean_m", "unwired_sea_side_offshore_m", "all_mean_m", "all_offshore_m", "largest_m")}
+                                   ("wired_mean_m", "wired_offshore_m", "unwired_sea_side_mean_m", "unwired_sea_side_offshore_m", "all_mean_m", "all_offshore_m", "largest_m", "excursion_mean_m", "excursion_row_5_m", "excursion_largest_m")}
 more = numpy.array(column("case1", "unwired_sea_side_offshore_m")) - numpy.array(column("case1", "wired_offshore_m"))
-less = numpy.array(column("control", "all_mean_m")) - numpy.array(column("case2", "all_mean_m"))
 same = numpy.array(column("unwired", "wired_offshore_m")) - numpy.array(column("case1", "wired_offshore_m"))
 farthest = numpy.array(column("unwired", "largest_offshore_m")) - numpy.array(column("case1", "largest_offshore_m"))
 summary["2a unwired of rows 4-5 farther offshore than wired in case 1"] = {"difference_m": mean_and_spread(more), "seeds_in_which_so": int((more > 0).sum())}
 summary["2b the wired blocks of case 1, were they not wired, farther offshore"] = {"difference_m": mean_and_spread(same), "seeds_in_which_so": int((same > 0).sum())}
 summary["2c farthest block of all farther offshore without any wire than in case 1"] = {"difference_m": mean_and_spread(farthest), "seeds_in_which_so": int((farthest > 0).sum())}
-most = numpy.array(column("control", "largest_offshore_m")) - numpy.array(column("case2", "largest_offshore_m"))
-summary["3b farthest block of case 2 less far offshore than of case 1 over the same waves"] = {"difference_m": mean_and_spread(most), "seeds_in_which_so": int((most > 0).sum())}
-summary["3 case 2 moves less than case 1 over the same waves"] = {"difference_m": mean_and_spread(less), "seeds_in_which_so": int((less > 0).sum())}
+for title, key in (("3 case 2 moves less than case 1 over the same waves", "all_mean_m"), ("3b the same, farthest from its start during the waves", "excursion_mean_m"),
+                   ("3c the same, row 5", "excursion_row_5_m"), ("3d the same, farthest block", "excursion_largest_m"),
+                   ("3e the same, farthest block at the end", "largest_m")):
+    less = numpy.array(column("control", key)) - numpy.array(column("case2", key))
+    summary[title] = {"difference_m": mean_and_spread(less), "of_m": mean_and_spread(column("control", key)), "seeds_in_which_so": int((less > 0).sum())}
+for case, label in (("case2", "9.99"), ("case2", "11.67"), ("case2", "largest")):
+    chosen = [row for row in arches if row["case"] == case and row["t_after_arrival_s"] == label]
+    if not chosen:
+        continue
+    summary[f"4b tensions of {case}, {'largest of the run' if label == 'largest' else 't = ' + label + ' s'}: an arch"] = {
+        **{key: mean_and_spread([row[key] for row in chosen]) for key in ("along_middle_N", "along_ends_N", "across_middle_N", "across_ends_N")},
+        "seeds_in_which_more_along_in_the_middle": sum(row["along_middle_N"] > row["along_ends_N"] for row in chosen),
+        "seeds_in_which_more_across_at_the_ends": sum(row["across_ends_N"] > row["across_middle_N"] for row in chosen)}
 for case in ("case1", "case2"):
     pulls = [row["cross_78_N"] for row in tensions if row["case"] == case and row["t_after_arrival_s"] == "11.67"]
     summary[f"4 cross-shore wire at block 78 in tension at the end of {case}"] = {"seeds_in_which_so": sum(pull > 0 for pull in pulls), "newtons": pulls}

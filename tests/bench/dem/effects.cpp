@@ -26,7 +26,7 @@ void a_second(benchmark::State& state, std::vector<std::string> settings) {
     const auto simulation = dem::build_simulation(scene, true);
     simulation->start(0);
     simulation->advance(2.0);
-    mount_layout(*simulation, scene, dem::poses_of(simulation->blocks), nullptr);
+    mount_layout(*simulation, scene, nullptr);
     const auto steps = simulation->steps(), block_steps = simulation->awake_block_steps();
     for (auto _ : state) simulation->advance(simulation->time() + 1);
     const auto seconds = static_cast<double>(state.iterations());
