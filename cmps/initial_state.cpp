@@ -50,12 +50,14 @@ void fill_water(const Solid& solid, double spacing, double x0, double x1, double
 }
 
 void fill_polygons(const Solid& solid, double spacing, const std::vector<Polygon>& water,
-                   Particles& particles) {
-    for (const Polygon& polygon : water) {
+                   const std::vector<Point>& velocity, Particles& particles) {
+    for (std::size_t p = 0; p < water.size(); ++p) {
+        const Polygon& polygon = water[p];
+        const std::size_t first = particles.size();
         double x0 = 1e300, x1 = -1e300, z0 = 1e300, z1 = -1e300;
-        for (const Point& p : polygon) {
-            x0 = std::min(x0, p[0]), x1 = std::max(x1, p[0]);
-            z0 = std::min(z0, p[1]), z1 = std::max(z1, p[1]);
+        for (const Point& corner : polygon) {
+            x0 = std::min(x0, corner[0]), x1 = std::max(x1, corner[0]);
+            z0 = std::min(z0, corner[1]), z1 = std::max(z1, corner[1]);
         }
         // the solid's faces may stand inside the polygon: columns follow what is left free
         const int columns = std::max(1, static_cast<int>(std::lround((x1 - x0) / spacing)));
@@ -74,6 +76,9 @@ void fill_polygons(const Solid& solid, double spacing, const std::vector<Polygon
                 for (const auto& [low, high] : solid.free_intervals(x, cuts[k], cuts[k + 1]))
                     fill_column(x, width, low, high, spacing, carry, particles);
         }
+        if (velocity.empty()) continue;
+        for (std::size_t i = first; i < particles.size(); ++i)
+            particles.u[i] = velocity[p][0], particles.w[i] = velocity[p][1];
     }
 }
 

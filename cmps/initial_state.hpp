@@ -17,8 +17,8 @@ Particles make_boundary(const std::vector<BoundaryParticle>& placed);
 void fill_water(const Solid& solid, double spacing, double x0, double x1, double bottom,
                 const std::function<double(double)>& surface, Particles& particles);
 
-/// Fills polygons of water the same way.
+/// Fills polygons of water the same way; `velocity` (m/s) of each, or none: at rest.
 void fill_polygons(const Solid& solid, double spacing, const std::vector<Polygon>& water,
-                   Particles& particles);
+                   const std::vector<Point>& velocity, Particles& particles);
 
 }  // namespace cmps

@@ -36,7 +36,10 @@ NearField::NearField(const Settings& chosen, Particles initial)
       equation(chosen.pressure, lattice),
       kernel_(make_kernel(chosen)),
       solver_(chosen.tolerance, chosen.most_iterations),
-      gradient_(chosen.gradient, lattice.number_density) {}
+      gradient_(chosen.gradient, lattice.number_density) {
+    for (std::size_t i = particles.first_fluid(); i < particles.size(); ++i)
+        largest_speed_ = std::max(largest_speed_, std::hypot(particles.u[i], particles.w[i]));
+}
 
 double NearField::largest_step() const {
     const double l0 = settings.spacing;
@@ -128,12 +131,28 @@ void NearField::solve_pressure(double step) {
             solver_.solve(equation.matrix, equation.right_hand_side, unknown_pressure_, unknown_x_,
                           unknown_z_, std::max(2.5, 0.5 * settings.kernel_radius_ratio) * settings.spacing);
     }
+    note_pressure_change(unknown_pressure_);
     counts.iterations += report.iterations;
     if (!report.is_converged) ++counts.unconverged;
     std::fill(particles.pressure.begin(), particles.pressure.end(), 0.0);
     const double lowest = settings.negative_pressure ? -std::numeric_limits<double>::infinity() : 0.0;
     for (std::size_t a = 0; a < unknowns; ++a)
         particles.pressure[first + equation.row_of[a]] = std::max(unknown_pressure_[a], lowest);
+}
+
+/// How much the pressure changes in a step, against its size: little, where steps resolve the flow.
+void NearField::note_pressure_change(const std::vector<double>& solved) {
+    constexpr std::size_t first_steps = 3;  // released water takes its pressure at once
+    if (counts.steps < first_steps) return;
+    const auto water = place.begin() + static_cast<std::ptrdiff_t>(particles.walls);
+    // without a free surface a pressure is known up to a constant, which may be anything
+    if (std::find(water, place.end(), Place::surface) == place.end()) return;
+    const std::size_t first = particles.first_wall();
+    for (std::size_t a = 0; a < solved.size(); ++a) {
+        const double pressure = std::max(solved[a], 0.0);
+        pressure_change_ += std::abs(pressure - particles.pressure[first + equation.row_of[a]]);
+        pressure_sum_ += pressure;
+    }
 }
 
 void NearField::apply_gradient(double step) {

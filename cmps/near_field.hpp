@@ -77,6 +77,7 @@ class NearField {
     void drift(double step);
     void update_geometry();
     void solve_pressure(double step);
+    void note_pressure_change(const std::vector<double>& solved);
     void apply_gradient(double step);
     void find_face_pressure();
     void push_apart(double step);
@@ -92,17 +93,24 @@ class NearField {
     std::vector<double> gradient_x_, gradient_z_, unknown_pressure_, unknown_x_, unknown_z_, old_u_, old_w_,
         change_u_, change_w_;
     double largest_speed_ = 0, largest_acceleration_ = 0;
+    double pressure_change_ = 0, pressure_sum_ = 0;  ///< over all particles and steps, Pa
 
  public:
     double acceleration_smoothing = 0;  ///< s: time over which Du/Dt is averaged along the path
     double largest_speed() const { return largest_speed_; }
+    /// Mean change of the pressure from one step to the next, over the mean pressure.
+    double pressure_change_per_step() const {
+        return pressure_sum_ > 0 ? pressure_change_ / pressure_sum_ : 0.0;
+    }
     /// Largest speed, acceleration and gravity decide the next step; part of the state.
     std::vector<double> step_state() const {
-        return {largest_speed_, largest_acceleration_, settings.gravity_x, settings.gravity_z};
+        return {largest_speed_,     largest_acceleration_, settings.gravity_x,
+                settings.gravity_z, pressure_change_,      pressure_sum_};
     }
     void restore_step_state(const std::vector<double>& state) {
         largest_speed_ = state.at(0), largest_acceleration_ = state.at(1);
         settings.gravity_x = state.at(2), settings.gravity_z = state.at(3);
+        pressure_change_ = state.at(4), pressure_sum_ = state.at(5);
     }
 };
 

@@ -103,6 +103,16 @@ void check_places(const Section& section, const Scene& scene) {
     }
 }
 
+void read_water_velocity(const Section& section, Scene& scene) {
+    scene.water_velocity = section.points("water_velocity", "m/s",
+                                          "u, w at the start, of each polygon of cmps.water; none: at rest",
+                                          std::vector<Point>{});
+    if (!scene.water_velocity.empty() && scene.water_velocity.size() != scene.water.size())
+        section.problem("water_velocity",
+                        fmt::format("{} velocities for {} polygons of cmps.water: one [u, w] for each",
+                                    scene.water_velocity.size(), scene.water.size()));
+}
+
 void read_geometry(const common::SceneFile& file, const Section& section, Scene& scene) {
     if (section.has("tank")) {
         const auto box =
@@ -126,6 +136,7 @@ void read_geometry(const common::SceneFile& file, const Section& section, Scene&
         "closed polygons filled with water at the start; none: below z = 0 between wall and structure",
         std::vector<Polygon>{});
     check_polygons(section, "water", scene.water);
+    read_water_velocity(section, scene);
     if (scene.onshore <= scene.offshore)
         section.problem("onshore", fmt::format("must lie shoreward of cmps.offshore = {:g}", scene.offshore));
     if (!scene.tank && !scene.bed.empty() && (scene.offshore < x0 || scene.onshore > x1))
@@ -212,7 +223,12 @@ void read_numerics(const common::SceneFile& file, const Section& section, Scene&
         section.number("courant", "-", "largest u dt / l0", Range::between(0.001, 0.5), settings.courant);
     settings.time_step_factor =
         section.number("time_step_factor", "-", "on the largest step by speed, celerity and acceleration",
-                       Range::between(0.01, 10), settings.time_step_factor);
+                       Range::between(0.01, 4), settings.time_step_factor);
+    if (const double way = settings.courant * settings.time_step_factor; way > 1)
+        section.problem("time_step_factor",
+                        fmt::format("{:g} times cmps.courant = {:g}: water would move by {:g} l0 in a step, "
+                                    "past its neighbours; at most 1",
+                                    settings.time_step_factor, settings.courant, way));
     const auto gravity = section.numbers("gravity", "m/s2", "x and z component", 2, Range::any(),
                                          std::vector<double>{0.0, -9.81});
     settings.gravity_x = gravity[0], settings.gravity_z = gravity[1];

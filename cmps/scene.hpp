@@ -30,6 +30,7 @@ struct Scene {
     std::vector<Polygon> structure;
     std::optional<std::array<double, 4>> tank;  ///< x0, x1, z0, z1
     std::vector<Polygon> water;                 ///< empty: below z = 0 between the wall and the structure
+    std::vector<Point> water_velocity;          ///< m/s, of each polygon at the start; empty: at rest
 
     // drive
     Drive drive = Drive::waves;

@@ -102,7 +102,7 @@ Particles initial_particles(const Scene& scene, const Solid& solid, const WaveFi
     if (scene.drive != Drive::none) add_moving_wall(scene, placed);
     Particles particles = make_boundary(placed);
     if (!scene.water.empty()) {
-        fill_polygons(solid, l0, scene.water, particles);
+        fill_polygons(solid, l0, scene.water, scene.water_velocity, particles);
         return particles;
     }
     fill_water(
