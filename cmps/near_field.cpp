@@ -140,7 +140,8 @@ void NearField::solve_pressure(double step) {
         particles.pressure[first + equation.row_of[a]] = std::max(unknown_pressure_[a], lowest);
 }
 
-/// How much the pressure changes in a step, against its size: little, where steps resolve the flow.
+/// How much the pressure changes in a step, against its size, or what the water's speed could make of it:
+/// little, where steps resolve the flow.
 void NearField::note_pressure_change(const std::vector<double>& solved) {
     constexpr std::size_t first_steps = 3;  // released water takes its pressure at once
     if (counts.steps < first_steps) return;
@@ -148,11 +149,13 @@ void NearField::note_pressure_change(const std::vector<double>& solved) {
     // without a free surface a pressure is known up to a constant, which may be anything
     if (std::find(water, place.end(), Place::surface) == place.end()) return;
     const std::size_t first = particles.first_wall();
+    const double stagnation = 0.5 * settings.pressure.density * largest_speed_ * largest_speed_;
     for (std::size_t a = 0; a < solved.size(); ++a) {
         const double pressure = std::max(solved[a], 0.0);
         pressure_change_ += std::abs(pressure - particles.pressure[first + equation.row_of[a]]);
         pressure_sum_ += pressure;
     }
+    stagnation_sum_ += stagnation * static_cast<double>(solved.size());
 }
 
 void NearField::apply_gradient(double step) {

@@ -1,6 +1,7 @@
 /// The near field: particles, and one time step of the corrected moving-particle semi-implicit method.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <variant>
@@ -93,24 +94,26 @@ class NearField {
     std::vector<double> gradient_x_, gradient_z_, unknown_pressure_, unknown_x_, unknown_z_, old_u_, old_w_,
         change_u_, change_w_;
     double largest_speed_ = 0, largest_acceleration_ = 0;
-    double pressure_change_ = 0, pressure_sum_ = 0;  ///< over all particles and steps, Pa
+    double pressure_change_ = 0, pressure_sum_ = 0, stagnation_sum_ = 0;  ///< over particles and steps, Pa
 
  public:
     double acceleration_smoothing = 0;  ///< s: time over which Du/Dt is averaged along the path
     double largest_speed() const { return largest_speed_; }
-    /// Mean change of the pressure from one step to the next, over the mean pressure.
+    /// Mean change of the pressure from one step to the next, over the mean pressure; in water that flies
+    /// freely, where there is next to none, over a fifth of the stagnation pressure.
     double pressure_change_per_step() const {
-        return pressure_sum_ > 0 ? pressure_change_ / pressure_sum_ : 0.0;
+        const double scale = std::max(pressure_sum_, 0.2 * stagnation_sum_);
+        return scale > 0 ? pressure_change_ / scale : 0.0;
     }
     /// Largest speed, acceleration and gravity decide the next step; part of the state.
     std::vector<double> step_state() const {
-        return {largest_speed_,     largest_acceleration_, settings.gravity_x,
-                settings.gravity_z, pressure_change_,      pressure_sum_};
+        return {largest_speed_,   largest_acceleration_, settings.gravity_x, settings.gravity_z,
+                pressure_change_, pressure_sum_,         stagnation_sum_};
     }
     void restore_step_state(const std::vector<double>& state) {
         largest_speed_ = state.at(0), largest_acceleration_ = state.at(1);
         settings.gravity_x = state.at(2), settings.gravity_z = state.at(3);
-        pressure_change_ = state.at(4), pressure_sum_ = state.at(5);
+        pressure_change_ = state.at(4), pressure_sum_ = state.at(5), stagnation_sum_ = state.at(6);
     }
 };
 

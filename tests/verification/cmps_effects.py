@@ -176,6 +176,51 @@ viscosity = "{wish}"
     print(f"      share of time: viscosity {share(full, 'viscosity'):.3f} (on), {share(plain, 'viscosity'):.3f} (auto)")
 
 
+def mixing_layer():
+    """Two streams side by side, +-U/2, no gravity: with the mixing length l = C l0 the layer between them is known exactly.
+
+    du/dt = d/dz (l^2 |du/dz| du/dz) from a jump U has the solution u = U (3 s - s^3) / 4, s = z / d, |s| < 1, d^3 = 9 l^2 U t; its
+    momentum thickness, the integral of 1/4 - (u/U)^2, is 9/35 d. Without turbulence particles slide past each other and the jump stays.
+    """
+    length, half_height, velocity, end, spacing = 2.4, 0.2, 1.0, 0.9, 0.01
+
+    def thickness(name, constant, wish):
+        run = Run(name, f"""
+title = "mixing layer"
+[time]
+end = {end}
+window = {end}
+[cmps]
+drive = "none"
+tank = [0, {3 * length}, 0, {2 * half_height}]
+water = [[[{length}, 0], [{2 * length}, 0], [{2 * length}, {half_height}], [{length}, {half_height}]],
+         [[{length}, {half_height}], [{2 * length}, {half_height}], [{2 * length}, {2 * half_height}], [{length}, {2 * half_height}]]]
+water_velocity = [[{-velocity / 2}, 0], [{velocity / 2}, 0]]
+gravity = [0, 0]
+particle_spacing = {spacing}
+particles_interval = {end}
+smagorinsky = {constant}
+[effects]
+turbulence = "{wish}"
+""")
+        expect(run.status == 0, f"{name}: exit {run.status} {run.messages.strip()}")
+        _, position, moving = run.fluid()
+        middle = np.abs(position[-1, :, 0] - 1.5 * length) < 0.2 * length  # the streams' ends have not come here
+        edges = np.linspace(0, 2 * half_height, round(2 * half_height / spacing) + 1)
+        z, u = position[-1, middle, 1], moving[-1, middle, 0] / velocity
+        mean = np.histogram(z, edges, weights=u)[0] / np.maximum(np.histogram(z, edges)[0], 1)
+        return np.sum(0.25 - mean**2) * spacing
+
+    for constant in (0.15, 1.0):  # the default; a layer of many particles
+        theory = 9 / 35 * (9 * (constant * spacing) ** 2 * velocity * end) ** (1 / 3)
+        layer = thickness(f"layer_{constant}", constant, "on")
+        # rows of particles a spacing apart, and a layer of 0.7 (default) or 2.4 spacings
+        expect(abs(layer / theory - 1) < 0.1, f"turbulence: mixing layer of C = {constant}, momentum thickness {layer / spacing:.3f} l0, theory {theory / spacing:.3f} l0 (bound 10 %)")
+        if constant == 0.15:
+            without = thickness("layer_without", constant, "off")
+            expect(without < 0.3 * layer, f"turbulence: without it {without / spacing:.3f} l0, less than a third (bound 0.3)")
+
+
 def turbulence_and_basin():
     """Mild waves at a high structure: no breaking, nothing over the crest; both effects off by themselves, and the same when on."""
     waves = os.path.join(FOLDER, "mild")
@@ -219,7 +264,7 @@ def overtopping():
     print(f"      particles at the end: {on.figure('particles', 'fluid'):.0f} with it, {off.figure('particles', 'fluid'):.0f} without")
 
 
-for case in (start_at_arrival, start_in_waves, open_boundaries, nothing_to_do, viscosity, turbulence_and_basin, overtopping):
+for case in (start_at_arrival, start_in_waves, open_boundaries, nothing_to_do, viscosity, mixing_layer, turbulence_and_basin, overtopping):
     if len(sys.argv) < 2 or sys.argv[1] in case.__name__:
         case()
 finish()

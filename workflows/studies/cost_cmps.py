@@ -10,8 +10,8 @@ Cases with a true answer:
     wave     standing wave, ka = 0.16, kh = 1.6, six periods: height lost in a period (exact: none)
     flume    regular waves of H/h = 0.25 along a flume: height lost over three wave lengths (exact: none)
 The ladder (particles over the depth) for each, and one factor at a time around the defaults at 20 over the depth: gradient, source,
-Laplacian, surface condition, kernel, time stepping, shifting, velocity filter, density term, solver tolerance, time step; the flume,
-which is what a cheaper setting must not spoil, for those that save time, alone and together, at 24 (standard). Errors are the rms
+Laplacian, surface condition, kernel, time stepping, shifting, velocity filter, density term, solver tolerance, time step; then sets
+that a level may be made of, on the flume as well: waves are what a cheaper set must not spoil. Errors are the rms
 over lattices (the spacing times 0.96 to 1.04): one lattice's figure for a wave is off by half of itself by chance.
 
 Runs that are there already are read, not run again. --part K/N runs every N-th of them and writes no table, so that parts can run
@@ -39,12 +39,13 @@ title = "still water"
 end = {end}
 window = 1.0
 [gauges]
-floor = {{x = 0.2, z = 0.0, kind = "pressure", interval = 0.01}}
+floor = {{x = 0.2, z = 0.0, kind = "pressure", interval = 0.04}}
 [cmps]
 drive = "none"
 tank = [0, 0.4, 0, 0.5]
 water = [[[0, 0], [0.4, 0], [0.4, 0.3], [0, 0.3]]]
 particle_spacing = {spacing}
+particles_interval = 1.0
 """
 
 DAM = """
@@ -87,12 +88,13 @@ title = "standing wave"
 end = {end}
 window = 1.0
 [gauges]
-wall = {{x = 0.01, interval = 0.01}}
+wall = {{x = 0.01, interval = 0.04}}
 [cmps]
 drive = "none"
 tank = [0, 0.6, 0, 0.5]
 water = [[[0, 0], [0.6, 0], {surface}]]
 particle_spacing = {spacing}
+particles_interval = 1.0
 """
 FLUME = """
 title = "regular waves along a flume"
@@ -200,17 +202,17 @@ def flume_error(folder, _):
 
 
 FEW, MANY = (0.97, 1.0, 1.03), (0.96, 0.98, 1.0, 1.02, 1.04)
-CASES = {  # scene, depth, end, error, what it is, lattices, particles over the depth of the factors
-    "still": (STILL, 0.3, 4.0, still_error, "rms of p/(rho g h) - 1", MANY, 20),
-    "dam": (DAM, 0.3, 0.9, dam_error, "rms of levels over H, against the experiment", MANY, 20),
-    "wave": (WAVE, 0.3, 6.5 * WAVE_PERIOD, wave_error, "height of a standing wave lost in a period", MANY, 20),
-    "solitary": (SOLITARY, 0.2, 4.5, solitary_error, "run-up at the wall, relative", FEW, 20),
-    "flume": (FLUME, 0.4, 15.8, flume_error, "height lost over three wave lengths", (1.0,), 24),
+CASES = {  # scene, depth, end, error, what it is, lattices
+    "still": (STILL, 0.3, 4.0, still_error, "rms of p/(rho g h) - 1", MANY),
+    "dam": (DAM, 0.3, 0.9, dam_error, "rms of levels over H, against the experiment", MANY),
+    "wave": (WAVE, 0.3, 6.5 * WAVE_PERIOD, wave_error, "height of a standing wave lost in a period", MANY),
+    "solitary": (SOLITARY, 0.2, 4.5, solitary_error, "run-up at the wall, relative", FEW),
+    "flume": (FLUME, 0.4, 15.8, flume_error, "height lost over three wave lengths", (1.0,)),
 }
 LADDER = [8, 12, 16, 20, 24, 30, 40]
-FLUME_LADDER = [12, 16, 20, 24]
-# what saves time, alone and together
-CHEAPER = ["tolerance=1e-2", "courant=0.4", "time_step_factor=1.5", "time_step_factor=2", "kernel_radius=2.1", "tolerance=1e-2 time_step_factor=1.5", "tolerance=1e-2 time_step_factor=2"]
+# Sets that a level may be made of: particles over the depth with other settings than the defaults.
+SETS = [(16, "tolerance=1e-2"), (16, "tolerance=1e-2 time_step_factor=1.5"), (24, "tolerance=1e-2"), (24, "time_step_factor=1.5"), (24, "kernel_radius=3.1"), (30, "kernel_radius=3.1"), (40, "kernel_radius=3.1")]
+SLOW = {"solitary": 40, "flume": 30}  # cases, and the particles over the depth from which sets are not run for them
 FACTORS = [
     ("gradient", ["gradient=standard", "gradient=modified", "gradient=antisymmetric", "gradient=antisymmetric_local", "gradient=antisymmetric_corrected"]),
     ("source", ["source=density", "source=corrected", "source=error_compensating"]),
@@ -225,12 +227,12 @@ FACTORS = [
     ("tolerance", ["tolerance=1e-2", "tolerance=1e-5"]),
     ("courant", ["courant=0.1", "courant=0.4"]),
     ("time_step", ["time_step_factor=0.5", "time_step_factor=1.5", "time_step_factor=2"]),
-    ("both", CHEAPER[-2:]),
+    ("both", ["tolerance=1e-2 time_step_factor=1.5", "tolerance=1e-2 time_step_factor=2"]),
 ]
 
 
 def measure(arguments, case, particles_over_depth, factor, setting):
-    template, depth, end, error_of, error_is, lattices, _ = CASES[case]
+    template, depth, end, error_of, error_is, lattices = CASES[case]
     if arguments.smoke:
         end, lattices = min(end, 3.4 if case == "solitary" else 0.4), (1.0,)
     piston, waves = (os.path.abspath(os.path.join(arguments.out, name)) for name in ("piston.csv", "regular_waves"))
@@ -256,7 +258,7 @@ def measure(arguments, case, particles_over_depth, factor, setting):
             errors.append(error_of(folder, spacing))
     is_done = len(errors) == len(lattices)
     figures = record.get("figures", {})
-    return ["cmps", case, factor, str(particles_over_depth) if factor == "resolution" else setting,
+    return ["cmps", case, factor, str(particles_over_depth) if factor == "resolution" else f"{particles_over_depth} {setting}" if factor == "set" else setting,
             f"{np.sqrt(np.mean(np.square(errors))):.5f}" if is_done else "", f"{min(errors):.5f}" if is_done else "", f"{max(errors):.5f}" if is_done else "", error_is,
             f"{np.median(walls):.3f}", f"{min(walls):.3f}", f"{max(walls):.3f}", f"{np.median(cpu):.3f}", f"{record['peak_memory'] / 1e6:.1f}", int(figures.get("steps", 0)),
             int(figures.get("particles", {}).get("all", 0)), record["status"] if is_done else record.get("message", "failed")[:60]]
@@ -298,7 +300,7 @@ def main():
     parser.add_argument("--out", required=True)
     parser.add_argument("--smoke", action="store_true", help="coarsest levels and short runs")
     parser.add_argument("--repeats", type=int, default=1)
-    parser.add_argument("--only", choices=["ladder", "factors"])
+    parser.add_argument("--factor", action="append", help="this factor alone (resolution, set, or one of the factors); may be given again")
     parser.add_argument("--case", choices=list(CASES), help="this case alone")
     parser.add_argument("--part", help="K/N: every N-th run from the K-th (from 0), no table")
     parser.add_argument("--scene", help="accepted for the common command line; cost_scene.py runs a scene's ladder")
@@ -306,18 +308,19 @@ def main():
     os.makedirs(arguments.out, exist_ok=True)
     write_piston(os.path.join(arguments.out, "piston.csv"))
     plan = []
-    for case, (*_, end, _, _, _, at) in CASES.items():
+    for case, (_, _, end, *_) in CASES.items():
         if case == "flume":
             if arguments.smoke:
                 continue  # it takes 16 s of waves before there is anything to see
             write_waves(os.path.join(arguments.out, "regular_waves"), FLUME_HEIGHT, FLUME_PERIOD, FLUME_DEPTH, 24, 30, end + 0.2, window=1.0)
-        plan += [(case, level, "resolution", "-") for level in (LADDER[:2] if arguments.smoke else FLUME_LADDER if case == "flume" else LADDER)]
-        for factor, settings in FACTORS[:1] if arguments.smoke else FACTORS:
-            plan += [(case, 8 if arguments.smoke else at, factor, setting) for setting in settings if case != "flume" or setting in CHEAPER]
-    if arguments.only:
-        plan = [entry for entry in plan if (entry[2] == "resolution") == (arguments.only == "ladder")]
+        plan += [(case, level, "resolution", "-") for level in (LADDER[:2] if arguments.smoke else [16, 24] if case == "flume" else LADDER)]
+        for factor, settings in FACTORS[:1] if arguments.smoke else [] if case == "flume" else FACTORS:
+            plan += [(case, 8 if arguments.smoke else 20, factor, setting) for setting in settings]
+        plan += [(case, level, "set", setting) for level, setting in ([] if arguments.smoke else SETS) if level < SLOW.get(case, 1000)]
     if arguments.case:
         plan = [entry for entry in plan if entry[0] == arguments.case]
+    if arguments.factor:
+        plan = [entry for entry in plan if entry[2] in arguments.factor]
     if arguments.part:
         part, parts = map(int, arguments.part.split("/"))
         plan = plan[part::parts]
