@@ -155,7 +155,13 @@ Snapshot read_start(const std::filesystem::path& from, const Scene& scene) {
         throw common::InputError(
             fmt::format("{}: not a state of dem (schema '{}')", from.string(), file.text("schema")));
     check_same_scene(file.text("placement_digest"), scene, from);
-    Snapshot snapshot = snapshot_from(file);
+    Snapshot snapshot = [&] {
+        try {
+            return snapshot_from(file);
+        } catch (const common::InputError& fault) {
+            throw common::InputError(fmt::format("{}: {}", from.string(), fault.what()));
+        }
+    }();
     if (scene.restart_time && std::abs(*scene.restart_time - snapshot.t) > 1e-6)
         throw common::InputError(
             fmt::format("{}: holds t = {} s only; dem.restart.time = {} s needs the window of that instant",

@@ -91,11 +91,16 @@ def groups(folder):
 COLUMNS, MIDDLE = 20, range(5, 15)  # of a row; those that count as its middle, from 0
 
 
-def tensions_by_place(folder, first, last):
+def tensions_by_place(folder, first, last, kept_from=None):
     """Largest tension of each link (sum over its wires) at the samples from `first` to `last`, or at the nearest one; its mean over
-    links along the breakwater and across it, in the middle of the width and at the ends, N. NaN where there is no such link."""
+    links along the breakwater and across it, in the middle of the width and at the ends, N. NaN where there is no such link.
+    Without the wires that were there in the run `kept_from`, which come with a tension of their own."""
     time, tension = run_folder.read_series(folder, "/wires/tension")
     ends = run_folder.read_geometry(folder)["/wires/ends"]
+    if kept_from is not None:
+        earlier = {tuple(wire) for wire in run_folder.read_geometry(kept_from)["/wires/ends"]}
+        is_new = numpy.array([tuple(wire) not in earlier for wire in ends])
+        ends, tension = ends[is_new], tension[:, is_new]
     links, link_of_wire = numpy.unique(ends[:, [0, 2]], axis=0, return_inverse=True)
     chosen = tension[(time > first) & (time < last)]
     if len(chosen) == 0:
@@ -169,8 +174,10 @@ for seed in seeds:
                              "f_min_N": pulled.min() if len(pulled) else 0.0, "wires_in_tension": len(pulled),
                              "wires": len(tension), "cross_78_N": tension[cross_78].sum()})
         for label, first, last in (("9.99", arrival + INSTANT, arrival + INSTANT), ("11.67", end, end), ("largest", arrival, end)):
-            if last <= end:
-                arches.append({"case": name, "seed": seed, "t_after_arrival_s": label, **tensions_by_place(folder, first, last)})
+            for wires, kept_from in (("all", None), *((("new", case1),) if name == "case2" else ())):
+                if last <= end:
+                    arches.append({"case": name, "seed": seed, "wires": wires, "t_after_arrival_s": label,
+                                   **tensions_by_place(folder, first, last, kept_from)})
 write_csv("paper_displacement.csv", rows)
 write_csv("paper_arch.csv", arches)
 write_csv("paper_tension.csv", tensions)
@@ -208,14 +215,15 @@ for title, key in (("3 case 2 moves less than case 1 over the same waves", "all_
                    ("3e the same, farthest block at the end", "largest_m")):
     less = numpy.array(column("control", key)) - numpy.array(column("case2", key))
     summary[title] = {"difference_m": mean_and_spread(less), "of_m": mean_and_spread(column("control", key)), "seeds_in_which_so": int((less > 0).sum())}
-for case, label in (("case2", "9.99"), ("case2", "11.67"), ("case2", "largest")):
-    chosen = [row for row in arches if row["case"] == case and row["t_after_arrival_s"] == label]
-    if not chosen:
-        continue
-    summary[f"4b tensions of {case}, {'largest of the run' if label == 'largest' else 't = ' + label + ' s'}: an arch"] = {
-        **{key: mean_and_spread([row[key] for row in chosen]) for key in ("along_middle_N", "along_ends_N", "across_middle_N", "across_ends_N")},
-        "seeds_in_which_more_along_in_the_middle": sum(row["along_middle_N"] > row["along_ends_N"] for row in chosen),
-        "seeds_in_which_more_across_at_the_ends": sum(row["across_ends_N"] > row["across_middle_N"] for row in chosen)}
+for wires in ("all", "new"):
+    for label in ("9.99", "11.67", "largest"):
+        chosen = [row for row in arches if (row["case"], row["wires"], row["t_after_arrival_s"]) == ("case2", wires, label)]
+        if not chosen:
+            continue
+        summary[f"4b arch: {wires} wires of case2, {'largest of the run' if label == 'largest' else 't = ' + label + ' s'}"] = {
+            **{key: mean_and_spread([row[key] for row in chosen]) for key in ("along_middle_N", "along_ends_N", "across_middle_N", "across_ends_N")},
+            "seeds_in_which_more_along_in_the_middle": sum(row["along_middle_N"] > row["along_ends_N"] for row in chosen),
+            "seeds_in_which_more_across_at_the_ends": sum(row["across_ends_N"] > row["across_middle_N"] for row in chosen)}
 for case in ("case1", "case2"):
     pulls = [row["cross_78_N"] for row in tensions if row["case"] == case and row["t_after_arrival_s"] == "11.67"]
     summary[f"4 cross-shore wire at block 78 in tension at the end of {case}"] = {"seeds_in_which_so": sum(pull > 0 for pull in pulls), "newtons": pulls}
