@@ -130,6 +130,10 @@ Accuracy SceneFile::accuracy() const {
     return word == "draft" ? Accuracy::draft : word == "fine" ? Accuracy::fine : Accuracy::standard;
 }
 
+bool SceneFile::has_problems() const {
+    return !data_->problems.empty();
+}
+
 void SceneFile::finish() const {
     auto problems = data_->problems;
     for (const auto& [name, table] : data_->sections_read) {

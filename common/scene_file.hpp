@@ -138,6 +138,9 @@ class SceneFile {
     /// `accuracy`, default standard.
     Accuracy accuracy() const;
 
+    /// True once a mistake was noted: what was read since holds stand-ins, and judging it would find mistakes
+    /// that the user did not make.
+    bool has_problems() const;
     /// Refuses unknown keys in every section that was read (nearest known name offered) and throws InputError
     /// with one line per mistake if there was any. Call it when everything has been read, before anything
     /// runs.

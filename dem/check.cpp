@@ -8,6 +8,7 @@
 #include "common/check_report.hpp"
 #include "dem/build_simulation.hpp"
 #include "dem/run.hpp"
+#include "dem/step_trial.hpp"
 
 namespace dem {
 
@@ -30,14 +31,19 @@ struct StepWork {
 StepWork work_of_a_step(const Scene& scene) {
     const auto simulation = build_simulation(scene, true);
     simulation->start(0);
+    // In pieces, so that steps of any length leave no one waiting.
+    const double piece = std::min(0.01, 50 * scene.step.time_step);
+    const auto advance_until = [&](double end, double most_seconds) {
+        double spent = 0;
+        while (spent < most_seconds && simulation->time() < end)
+            spent += seconds_of([&] { simulation->advance(simulation->time() + piece); });
+        return spent;
+    };
     // Blocks are placed a tenth of an element above the mound; they are down after sqrt(2 h / g) = 0.02 s.
-    simulation->advance(0.05);
+    advance_until(0.05, 2);
     mount_layout(*simulation, scene, nullptr);
     const auto before = simulation->steps();
-    const double begun = simulation->time();
-    double spent = 0;
-    while (spent < 0.2 && simulation->time() < begun + 2)
-        spent += seconds_of([&] { simulation->advance(simulation->time() + 0.01); });
+    const double spent = advance_until(simulation->time() + 2, 0.2);
     StepWork work;
     work.wires = simulation->wires.size();
     work.contacts = simulation->pair_list().contact_count();
@@ -60,6 +66,7 @@ void check(const common::StageCommand& command, const common::SceneFile& file, c
         moving += !scene.placed.is_fixed[i];
     }
     const double steps = std::ceil(scene.time.end / scene.step.time_step);
+    const double limit = require_stable_step(file, scene);
     const StepWork work = work_of_a_step(scene);
     common::print_check_report(
         scene.effects.records,
@@ -68,8 +75,10 @@ void check(const common::StageCommand& command, const common::SceneFile& file, c
                                scene.surroundings.planes.size())},
          {"links", fmt::format("{}", scene.wires.links.size())},
          {"a step", fmt::format("{} contacts, {} wires", work.contacts, work.wires)},
-         {"steps", fmt::format("at most {:.0f} of {:.3g} s ({}); the flow may start later", steps,
-                               scene.step.time_step, scene.time_step_is_chosen ? "chosen" : "given")},
+         {"steps", fmt::format("at most {:.0f} of {:.3g} s ({}; {}); the flow may start later", steps,
+                               scene.step.time_step, scene.time_step_is_chosen ? "chosen" : "given",
+                               std::isfinite(limit) ? fmt::format("first contacts allow {:.2g} s", limit)
+                                                    : std::string("nothing touches at first"))},
          {"run time", fmt::format("at most about {} on this machine ({:.3g} ms a step with all blocks awake; "
                                   "sleeping saves more)",
                                   common::run_time_text(work.seconds * steps), 1e3 * work.seconds)},

@@ -8,6 +8,7 @@
 #include "common/parallel.hpp"
 #include "common/stage_command.hpp"
 #include "dem/run.hpp"
+#include "dem/step_trial.hpp"
 
 namespace {
 
@@ -27,6 +28,16 @@ void refuse_without_earlier_run(const common::StageCommand& command, const commo
     refuse(restart, "time", "chooses an instant of");
     refuse(restart, "calm", "lets settle the blocks of");
     refuse(restart, "clock", "sets the clock of a run that goes on from");
+}
+
+/// What stands for the water of a flow means nothing beside one.
+void refuse_beside_a_flow(const common::StageCommand& command, const common::SceneFile& file) {
+    if (command.upstream.empty()) return;
+    const common::Section dem = file.section("dem");
+    for (const char* key : {"current", "current_acceleration"})
+        if (dem.has(key)) dem.problem(key, "stands for the water where there is no --flow");
+    if (dem.boolean("dry", "no water at all", false))
+        dem.problem("dry", "--flow brings water: it moves nothing where all is dry");
 }
 
 }  // namespace
@@ -54,8 +65,10 @@ int main(int argc, char** argv) {
         }
         const dem::Scene scene = dem::read_scene(file, layout ? &*layout : nullptr);
         refuse_without_earlier_run(command, file, layout ? &*layout : nullptr);
+        refuse_beside_a_flow(command, file);
         file.finish();
         if (layout) layout->finish();
+        if (command.verb != Verb::check && !command.resume) dem::require_stable_step(file, scene);
         if (command.verb == Verb::check) dem::check(command, file, scene);
         if (command.verb == Verb::pack) dem::pack(command, file, scene);
         if (command.verb == Verb::run) dem::run(command, file, layout ? &*layout : nullptr, scene);

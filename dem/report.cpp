@@ -41,9 +41,8 @@ double closure_error(const EnergyBudget& energy, double first_balance, double fi
 void Report::look(const Simulation& simulation) {
     const double limit = simulation.stable_time_step();
     smallest_limit_ = std::min(smallest_limit_, limit);
-    // A hit lowers the limit for an instant; a bed that stays past it trembles for ever. The bound itself
-    // errs by some percent.
-    past_limit_ = simulation.rules().time_step > 1.2 * limit ? past_limit_ + 1 : 0;
+    // A hit lowers the limit for an instant; a bed that stays past it trembles for ever.
+    past_limit_ = simulation.rules().time_step > time_step_margin * limit ? past_limit_ + 1 : 0;
     if (past_limit_ >= 2)
         throw common::RunError(
             fmt::format("t = {:.5f} s: the time step of {:.2g} s is past the limit of {:.2g} s that the "

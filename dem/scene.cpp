@@ -71,11 +71,21 @@ void read_stepping(const SceneFile& file, const Section& dem, Scene& scene) {
                         : file.accuracy() == common::Accuracy::standard ? 2e-3
                                                                         : 1e-3;
     // Two digits are enough for a default, and read better in run.json.
-    const double chosen = std::stod(fmt::format("{:.1e}", share * rayleigh_time(scene)));
+    const auto step_of = [&](double part) {
+        return std::stod(fmt::format("{:.1e}", part * rayleigh_time(scene)));
+    };
+    const double chosen = step_of(share);
+    scene.usual_time_step = step_of(0.24);
     scene.time_step_is_chosen = !dem.has("time_step");
     scene.step.time_step =
         dem.number("time_step", "s", "largest step; default from the accuracy and the stiffness",
                    Range::positive(), chosen);
+    constexpr double most_steps = 1e12;  // a year of computing for a single sphere
+    if (scene.time.end > most_steps * scene.step.time_step)
+        dem.problem("time_step",
+                    fmt::format("{} s would take {:.1g} steps to time.end = {} s; at most {:.0g}",
+                                scene.step.time_step, scene.time.end / scene.step.time_step, scene.time.end,
+                                most_steps));
     scene.step.flow_interval = dem.number(
         "flow_interval", "s", "between samples of the water at every sphere", Range::positive(), flow);
     const double d = scene.element.diameter;
@@ -85,8 +95,27 @@ void read_stepping(const SceneFile& file, const Section& dem, Scene& scene) {
         d * dem.number("overlap_noted", "d", "deeper contacts are counted", Range::positive(), 0.05);
     scene.step.overlap_limit =
         d * dem.number("overlap_limit", "d", "deeper contacts stop the run", Range::positive(), 0.5);
+    if (scene.step.overlap_noted > scene.step.overlap_limit && dem.has("overlap_noted"))
+        dem.problem("overlap_noted",
+                    fmt::format("expected at most dem.overlap_limit, {} d", scene.step.overlap_limit / d));
     scene.output_interval =
         dem.number("output_interval", "s", "between recorded instants", Range::positive(), 0.05);
+}
+
+/// What a single element would do under its own weight is the least that any contact has to bear.
+void judge_stiffness(const Section& dem, const Scene& scene) {
+    const double weight =
+        scene.element.density_ratio * scene.water.density * scene.element.volume() * scene.gravity.norm();
+    const double radius = scene.element.diameter / 4;  // R* of two elements
+    const double sunk =
+        scene.contact == ContactLaw::linear
+            ? weight / scene.material.hertz_stiffness(radius, scene.reference_overlap)
+            : std::pow(0.75 * weight / (scene.material.contact_modulus() * std::sqrt(radius)), 2.0 / 3);
+    if (sunk > scene.step.overlap_limit)
+        dem.problem("young_modulus",
+                    fmt::format("too soft: an element sinks {:.2g} m into another under its own weight, past "
+                                "dem.overlap_limit ({:.2g} m)",
+                                sunk, scene.step.overlap_limit));
 }
 
 void read_water(const Section& dem, Scene& scene, bool& dry) {
@@ -95,6 +124,8 @@ void read_water(const Section& dem, Scene& scene, bool& dry) {
         read_vector(dem, "current", "m/s", "uniform water velocity without a flow", Vector::Zero());
     scene.uniform_water.acceleration = read_vector(
         dem, "current_acceleration", "m/s2", "uniform water acceleration without a flow", Vector::Zero());
+    for (const char* key : {"current", "current_acceleration"})
+        if (dry && dem.has(key)) dem.problem(key, "dem.dry is true: there is no water to flow");
     scene.uniform_water.element_diameter = scene.element.diameter;
     scene.still_outside =
         dem.choice("flow_outside", "water outside the flow grid", {"error", "still"}, "error") == "still";
@@ -111,6 +142,25 @@ void read_sleep(const Section& dem, Scene& scene) {
         sleeping.number("wake_load", "-", "change of load that wakes, in weights", Range::positive(), 0.05);
 }
 
+/// Blocks lighter than the water they push aside would rise for ever instead of settling.
+void judge_settling(const SceneFile& file, bool dry, const Scene& scene) {
+    if (dry || !scene.packing.settle || scene.gravity.z() >= 0 || file.has_problems()) return;
+    for (std::size_t i = 0; i < scene.placed.size(); ++i) {
+        const Shape& shape = scene.placed.shape_of(i);
+        const double lifted = scene.water.density *
+                              (scene.displaced_volume > 0 ? scene.displaced_volume : shape.displaced_volume);
+        if (scene.placed.is_fixed[i] || shape.mass > lifted) continue;
+        const std::string message = fmt::format(
+            "block {} weighs {:.3g} kg and displaces {:.3g} kg of water: it floats and never settles", i + 1,
+            shape.mass, lifted);
+        if (scene.displaced_volume > 0)
+            file.section("dem.blocks").problem("displaced_volume", message);
+        else
+            file.section("dem").problem("density_ratio", message);
+        return;
+    }
+}
+
 }  // namespace
 
 Scene read_scene(const SceneFile& file, const SceneFile* layout) {
@@ -120,6 +170,7 @@ Scene read_scene(const SceneFile& file, const SceneFile* layout) {
     const Section dem = file.section("dem");
     read_material(dem, scene);
     read_stepping(file, dem, scene);
+    judge_stiffness(dem, scene);
     read_water(dem, scene, dry);
     read_sleep(dem, scene);
     const Section restart = dem.table("restart");
@@ -135,6 +186,7 @@ Scene read_scene(const SceneFile& file, const SceneFile* layout) {
             "calm", "blocks settle in still water before the new run starts; always where some are put back",
             false);
     read_blocks(file, scene);
+    judge_settling(file, dry, scene);
     read_wires(file, layout, scene);
     choose_effects(file, dry, scene);
     return scene;

@@ -55,6 +55,7 @@ struct Scene {
     double reference_overlap = 0;  ///< m
     StepRules step;
     bool time_step_is_chosen = true;  ///< by the program, not by the scene
+    double usual_time_step = 1e-4;    ///< the program's choice at standard accuracy, s
     SleepRules sleep;
     UniformWater uniform_water;
     bool still_outside = false;

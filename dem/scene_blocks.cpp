@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "common/errors.hpp"
 #include "dem/placement.hpp"
@@ -37,7 +38,12 @@ class ShapeBook {
             const ShapeDescription description = find_shape(name, file_.path().parent_path());
             scene_.placed.shapes.push_back(make_shape(description, scene_.element, scene_.water.density));
         } catch (const std::exception& error) {
-            section.problem("shape", error.what());
+            // A line of its own for every mistake of another file would not say whose they are.
+            const std::string message = error.what();
+            const auto lines = std::count(message.begin(), message.end(), '\n');
+            section.problem("shape", lines == 0 ? message
+                                                : fmt::format("{} (and {} more)",
+                                                              message.substr(0, message.find('\n')), lines));
             // A stand-in, so that the rest of the scene is read and its mistakes are told as well.
             scene_.placed.shapes.push_back(
                 make_shape(find_shape("beehive96", "."), scene_.element, scene_.water.density));
@@ -51,6 +57,21 @@ class ShapeBook {
     std::map<std::string, int> index_;
 };
 
+void judge_speeds(const Section& entry, const Scene& scene, int shape, bool fixed, const Vector& velocity,
+                  const Vector& spin) {
+    const Shape& form = scene.placed.shapes[static_cast<std::size_t>(shape)];
+    const auto judge = [&](const char* key, double speed) {
+        if (fixed && speed > 0) entry.problem(key, "a fixed block does not move");
+        if (speed * scene.step.time_step > 0.5 * form.diameter)
+            entry.problem(key, fmt::format("{:.3g} m in a step of {:.2g} s is more than the radius of the "
+                                           "block's spheres: contacts would be "
+                                           "missed; shorten dem.time_step",
+                                           speed * scene.step.time_step, scene.step.time_step));
+    };
+    judge("velocity", velocity.norm());
+    judge("angular_velocity", spin.norm() * form.radius);
+}
+
 void read_single_blocks(const Section& dem, ShapeBook& book, Scene& scene) {
     for (const Section& entry : dem.tables("block")) {
         const int shape = book.read(entry);
@@ -62,11 +83,13 @@ void read_single_blocks(const Section& dem, ShapeBook& book, Scene& scene) {
         const auto spin = entry.numbers("angular_velocity", "rad/s", "at the start, world axes", 3,
                                         Range::any(), std::vector<double>{0, 0, 0});
         const bool fixed = entry.boolean("fixed", "never moves", false);
-        const Quaternion orientation(turn[0], turn[1], turn[2], turn[3]);
+        Quaternion orientation(turn[0], turn[1], turn[2], turn[3]);
         if (orientation.norm() < 1e-6) {
             entry.problem("orientation", "expected a quaternion other than zero");
-            continue;
+            orientation.setIdentity();  // a stand-in, so that blocks keep their numbers
         }
+        judge_speeds(entry, scene, shape, fixed, Vector(velocity[0], velocity[1], velocity[2]),
+                     Vector(spin[0], spin[1], spin[2]));
         const Quaternion body =
             orientation.normalized() *
             scene.placed.shapes[static_cast<std::size_t>(shape)].body_from_file.conjugate();
@@ -120,7 +143,8 @@ MoundDescription read_mound(const Section& dem, const Scene& scene, double block
         section.number("patch", "m", "side of the patches of columns that share a height; 0: each its own",
                        Range::not_negative(), 0.0);
     mound.seed = static_cast<std::uint64_t>(
-        section.integer("seed", "of the random heights", Range::not_negative(), 1));
+        // The generator takes 32 bits: beyond, seeds would repeat.
+        section.integer("seed", "of the random heights", Range::between(0, 4294967295.0), 1));
     const auto y = section.numbers("y", "m", "extent along the breakwater", 2, Range::any(),
                                    std::vector<double>{0, scene.width > 0 ? scene.width : 1.0});
     mound.least_depth =
@@ -145,10 +169,20 @@ MoundDescription read_mound(const Section& dem, const Scene& scene, double block
         mound.profile.clear();
         return mound;
     }
-    const double columns = (mound.profile.back()[0] - mound.profile.front()[0]) * (y[1] - y[0]) /
-                           (mound.diameter * mound.diameter);
-    if (columns > 2e7) {
-        section.problem("profile", fmt::format("would need {:.2g} columns of spheres; at most 2e7", columns));
+    const double d = mound.diameter;
+    double drop = 0;  // of the profile, which columns at its steps are filled down
+    for (std::size_t i = 1; i < mound.profile.size(); ++i)
+        drop += std::abs(mound.profile[i][1] - mound.profile[i - 1][1]);
+    // The lowest of nine columns lies 1.5 standard deviations under the mean of all.
+    const double needed = (y[1] - y[0]) / d *
+                          (drop / d + (mound.profile.back()[0] - mound.profile.front()[0]) / d *
+                                          (1 + (1.5 * mound.roughness + mound.least_depth) / d));
+    constexpr double most = 2e7;
+    if (needed > most) {
+        section.problem(
+            "profile",
+            fmt::format("with its roughness and depth the mound would need {:.2g} spheres; at most {:.0g}",
+                        needed, most));
         mound.profile.clear();
         return mound;
     }
@@ -185,6 +219,14 @@ void place_armour(const Section& dem, Scene& scene, int shape, const FixedSphere
     scene.displaced_volume =
         blocks.number("displaced_volume", "m3", "water displaced by one block; 0: by its elements",
                       Range::not_negative(), 0.0);
+    const double count = static_cast<double>(scene.rows + static_cast<std::size_t>(behind)) *
+                         static_cast<double>(scene.columns * layers);
+    constexpr double most = 1e6;
+    if (count > most) {
+        blocks.problem("rows", fmt::format("{:.2g} blocks; at most {:.0g}", count, most));
+        scene.rows = scene.columns = 0;  // none are placed
+        return;
+    }
     if (!has_level && !dem.is_table("mound"))
         blocks.problem("level", "required where there is no mound: height of the blocks' centres");
     const ArmourPlan plan{.shape = shape,
@@ -268,11 +310,23 @@ class PlacementJudge {
     std::size_t placed_singly_;
 };
 
+/// Two in one place would be one of twice the stiffness.
+void judge_fixed_spheres(const Section& dem, const std::vector<Vector>& given) {
+    std::map<std::tuple<double, double, double>, std::size_t> known;
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        const auto [other, is_new] = known.try_emplace({given[i].x(), given[i].y(), given[i].z()}, i);
+        if (!is_new)
+            dem.problem("fixed_spheres",
+                        fmt::format("spheres {} and {} are at the same place", other->second + 1, i + 1));
+    }
+}
+
 /// Spheres that never move: those given one by one, and the mound's columns.
 void place_fixed_spheres(const Section& dem, Scene& scene, double block_height) {
     std::vector<Vector> fixed =
         vectors(dem.rows("fixed_spheres", "m", "centres of fixed spheres of diameter d", 3,
                          std::vector<std::vector<double>>{}));
+    judge_fixed_spheres(dem, fixed);
     std::vector<Vector> columns;
     scene.mound = read_mound(dem, scene, block_height, columns).profile;
     fixed.insert(fixed.end(), columns.begin(), columns.end());
@@ -309,7 +363,8 @@ void read_blocks(const SceneFile& file, Scene& scene) {
                                     "expected at least {:.3g} m",
                                     scene.width, 2 * farthest, 4 * farthest));
     }
-    if (scene.placed.size() == 0) dem.problem("", "no blocks: give [dem.blocks] or [[dem.block]]");
+    if (scene.placed.size() == 0 && !file.has_problems())
+        dem.problem("", "no blocks: give [dem.blocks] or [[dem.block]]");
 
     const Section packing = dem.table("packing");
     scene.packing.settle = packing.choice("method", "how blocks come to rest before the run",
@@ -317,7 +372,7 @@ void read_blocks(const SceneFile& file, Scene& scene) {
     scene.packing.longest = packing.number("longest", "s", "packing gives up after", Range::positive(), 5.0);
     scene.packing.speed =
         packing.number("speed", "m/s", "slower blocks have settled", Range::positive(), 1e-3);
-    PlacementJudge(dem, scene, placed_singly).judge();
+    if (!file.has_problems()) PlacementJudge(dem, scene, placed_singly).judge();
 }
 
 }  // namespace dem

@@ -16,7 +16,7 @@ namespace {
 /// Reads the links of one [wires] section into `scene.wires`; mistakes are noted where they stand.
 class LinkReader {
  public:
-    explicit LinkReader(Scene& scene) : scene_(scene) {}
+    LinkReader(const SceneFile& file, Scene& scene) : file_(file), scene_(scene) {}
 
     void single(const Section& entry) {
         const auto numbers =
@@ -29,6 +29,12 @@ class LinkReader {
             entry.problem("blocks", fmt::format("block {} is linked to itself", link.block_a + 1));
             return;
         }
+        if (scene_.placed.is_fixed[link.block_a] && scene_.placed.is_fixed[link.block_b]) {
+            entry.problem("blocks",
+                          fmt::format("blocks {} and {} are both fixed: a wire between them does nothing",
+                                      link.block_a + 1, link.block_b + 1));
+            return;
+        }
         if (entry.has("spheres")) {
             const auto spheres =
                 entry.numbers("spheres", "-", "numbers of the two spheres, from 1", 2, Range::any());
@@ -37,12 +43,17 @@ class LinkReader {
                 !sphere(entry, spheres[1], link.block_b, chosen[1]))
                 return;
             link.spheres = chosen;
+            if (entry.has("wires")) {
+                entry.problem("wires", "does not go with spheres, which name the one wire");
+                return;
+            }
         }
         add(entry, "blocks", link);
     }
 
     /// Neighbours in the same row.
     void along(const Section& entry) {
+        if (!has_grid(entry)) return;
         const auto rows = numbers(entry, "rows", "rows whose neighbours are linked, from 1", scene_.rows);
         const auto columns = span(entry, "columns", "first and last column, from 1", scene_.columns);
         const LinkRequest options_of_all = options(entry);
@@ -53,6 +64,7 @@ class LinkReader {
 
     /// Neighbours in the same column.
     void across(const Section& entry) {
+        if (!has_grid(entry)) return;
         const auto columns =
             numbers(entry, "columns", "columns whose neighbours are linked, from 1", scene_.columns);
         const auto rows = span(entry, "rows", "first and last row, from 1", scene_.rows);
@@ -83,6 +95,14 @@ class LinkReader {
     }
 
  private:
+    /// Rows and columns are those of [dem.blocks].
+    bool has_grid(const Section& entry) const {
+        if (scene_.rows > 0) return true;
+        if (!file_.has_problems())
+            entry.problem("", "needs [dem.blocks], whose rows and columns it speaks of");
+        entry.keys();  // known, but not judged
+        return false;
+    }
     static LinkRequest options(const Section& entry) {
         LinkRequest link{};
         link.wires = static_cast<std::size_t>(entry.integer(
@@ -91,6 +111,8 @@ class LinkReader {
             link.rest_length =
                 entry.number("rest_length", "m", "r0; default: distance of centres when packed",
                              Range::not_negative(), 0.0);
+        if (entry.has("rest_length") && entry.has("slack"))
+            entry.problem("slack", "does not go with rest_length: it is added to the packed distance");
         link.slack = entry.number("slack", "m", "added to the packed distance", Range::not_negative(), 0.0);
         if (entry.has("stiffness"))
             link.stiffness =
@@ -100,7 +122,8 @@ class LinkReader {
     bool block(const Section& entry, const char* key, double number, std::uint32_t& found) const {
         const auto count = scene_.placed.size();
         if (number < 1 || number > static_cast<double>(count) || number != std::floor(number)) {
-            entry.problem(key, fmt::format("no block {}; blocks are numbered 1 to {}", number, count));
+            if (count > 0 || !file_.has_problems())
+                entry.problem(key, fmt::format("no block {}; blocks are numbered 1 to {}", number, count));
             return false;
         }
         found = static_cast<std::uint32_t>(number) - 1;
@@ -121,7 +144,9 @@ class LinkReader {
     std::vector<std::size_t> numbers(const Section& entry, const char* key, const char* about,
                                      std::size_t highest) const {
         std::vector<std::size_t> result;
-        for (const double number : entry.numbers(key, "-", about, 0, Range::any())) {
+        const auto given = entry.numbers(key, "-", about, 0, Range::any());
+        if (given.empty() && entry.has(key)) entry.problem(key, "names none");
+        for (const double number : given) {
             if (number < 1 || number > static_cast<double>(highest) || number != std::floor(number))
                 entry.problem(key, fmt::format("no number {}; expected 1 to {}", number, highest));
             else
@@ -133,8 +158,14 @@ class LinkReader {
                                     std::size_t highest) const {
         const auto ends = entry.numbers(key, "-", about, 2, Range::any(),
                                         std::vector<double>{1, static_cast<double>(highest)});
-        if (!(ends[0] >= 1 && ends[1] >= ends[0] && ends[1] <= static_cast<double>(highest))) {
-            entry.problem(key, fmt::format("expected first and last number, within 1 to {}", highest));
+        const bool is_whole = ends[0] == std::floor(ends[0]) && ends[1] == std::floor(ends[1]);
+        if (!(is_whole && ends[0] >= 1 && ends[1] > ends[0] && ends[1] <= static_cast<double>(highest))) {
+            entry.problem(
+                key,
+                highest > 1
+                    ? fmt::format("expected first and last of the neighbours, whole numbers within 1 to {}",
+                                  highest)
+                    : fmt::format("there is but one: no neighbours to link"));
             return {1, 1};
         }
         return {static_cast<std::size_t>(ends[0]), static_cast<std::size_t>(ends[1])};
@@ -149,7 +180,13 @@ class LinkReader {
         add(entry, key, link);
     }
     void add(const Section& entry, const char* key, const LinkRequest& link) {
-        for (auto place : wires_of(scene_.placed, link, scene_.surroundings.period)) {
+        const auto places = wires_of(scene_.placed, link, scene_.surroundings.period);
+        if (link.wires > places.size()) {
+            entry.problem("wires", fmt::format("blocks {} and {} have {} pairs of facing spheres",
+                                               link.block_a + 1, link.block_b + 1, places.size()));
+            return;
+        }
+        for (auto place : places) {
             if (place.block_a > place.block_b) {
                 std::swap(place.block_a, place.block_b);
                 std::swap(place.sphere_a, place.sphere_b);
@@ -165,6 +202,7 @@ class LinkReader {
         scene_.wires.links.push_back(link);
     }
 
+    const SceneFile& file_;
     Scene& scene_;
     std::set<WirePlace> taken_;
 };
@@ -188,7 +226,7 @@ void read_wires(const SceneFile& file, const SceneFile* layout, Scene& scene) {
                     Range::positive(),
                     scene.material.hertz_stiffness(scene.element.diameter / 4, scene.reference_overlap));
     if (layout != nullptr) own.keys();  // the scene's own links stand aside: known, but not read
-    LinkReader reader(scene);
+    LinkReader reader(file, scene);
     for (const Section& entry : links.tables("link")) reader.single(entry);
     for (const Section& entry : links.tables("along")) reader.along(entry);
     for (const Section& entry : links.tables("across")) reader.across(entry);

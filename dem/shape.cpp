@@ -82,6 +82,13 @@ Shape make_shape(const ShapeDescription& description, const Element& element, do
     const Rotation turn = shape.body_from_file.toRotationMatrix();
     shape.inertia = (turn * inertia * turn.transpose()).diagonal();
     if (shape.inertia.minCoeff() <= 0) throw std::invalid_argument("the inertia of a shape must be positive");
+    // Of every body each moment is at most the sum of the other two; equal to it for a flat one, but for
+    // rounding.
+    if (2 * shape.inertia.maxCoeff() > (1 + 1e-9) * shape.inertia.sum())
+        throw std::invalid_argument(
+            fmt::format("no body has the moments of inertia {}, {}, {} kg m2: the largest is at most the sum "
+                        "of the others",
+                        shape.inertia.x(), shape.inertia.y(), shape.inertia.z()));
     // Moments that differ by rounding only are equal: motion.cpp then has less to do.
     for (const auto& [k, l] : {std::pair{0, 1}, {0, 2}, {1, 2}})
         if (std::abs(shape.inertia[k] - shape.inertia[l]) < 1e-12 * shape.inertia[k])

@@ -22,6 +22,9 @@ constexpr std::pair<std::string_view, std::string_view> shape_texts[] = {
 };
 
 ShapeDescription read_shape(const SceneFile& file, const std::string& name) {
+    for (const auto& key : file.root().keys())
+        if (key != "dem" && key != "title")
+            file.root().problem(key, "does not belong in a shape, which holds [dem.shape] only");
     const common::Section section = file.section("dem.shape");
     ShapeDescription shape;
     shape.name = name;

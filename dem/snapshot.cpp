@@ -118,7 +118,9 @@ Wires wires_from(const DataFile& file) {
     const auto& ends = file.at("/wires/ends").integers();
     wires.rest_length = file.at("/wires/rest_length").doubles();
     wires.stiffness = file.at("/wires/stiffness").doubles();
-    wires.image_offset = file.at("/wires/image_offset").doubles();
+    // States of before periodic boxes had wires across their sides lack it.
+    wires.image_offset.resize(wires.stiffness.size());
+    if (file.has("/wires/image_offset")) wires.image_offset = file.at("/wires/image_offset").doubles();
     for (const auto flag : file.at("/wires/intact").integers())
         wires.is_intact.push_back(static_cast<std::uint8_t>(flag));
     wires.tension = file.at("/wires/tension").doubles();

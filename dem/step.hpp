@@ -24,6 +24,9 @@ struct StepRules {
     double element_overlap_allowed = 0.25;  ///< at the start, in element diameters
 };
 
+/// The bound on stable steps errs by some percent: a step is past it from this many times it on.
+constexpr double time_step_margin = 1.2;
+
 /// Energies of the whole, J. The sum `balance` stays at its first value but for errors of the time step.
 struct EnergyBudget {
     double kinetic = 0, potential = 0, contacts = 0, wires = 0;  ///< stored

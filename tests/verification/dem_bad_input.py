@@ -28,10 +28,15 @@ psi = 0.3
 """
 
 
-def refused(what, text, *words, arguments=(), verb="run"):
-    r = run(text, *arguments, verb=verb)
+def refused(what, text, *words, arguments=(), verb="run", files={}):
+    """Refused with one line that holds all of `words`; `files`: name and text of what stands beside the scene."""
+    folder = tempfile.mkdtemp(prefix="tsunagi_dem_")
+    for name, content in files.items():
+        with open(os.path.join(folder, name), "w") as f:
+            f.write(content)
+    r = run(text, *arguments, verb=verb, folder=folder)
     lines = [line for line in r.message.strip().splitlines() if line]
-    good = r.status == 2 and all(any(w in line for line in lines) for w in words) and not os.path.exists(os.path.join(r.folder, "run.json"))
+    good = r.status == 2 and len(lines) == 1 and all(w in lines[0] for w in words) and not os.path.exists(os.path.join(r.folder, "run.json"))
     check.true(what, good, f"exit {r.status}: {r.message.strip()}")
 
 
@@ -69,7 +74,7 @@ refused("no rows at all", put("", "rows = 2", "rows = 0"), "dem.blocks.rows")
 refused("number that is not finite", put("", "width = 0.1", "width = nan"), "dem.width")
 refused("text for a number", put("", "width = 0.1", 'width = "wide"'), "dem.width")
 refused("negative roughness", put("", "roughness = 0.004", "roughness = -0.004"), "dem.mound.roughness")
-refused("mound of too many columns", put("", "[[0.0, -0.2], [0.2, -0.2]]", "[[0.0, -0.2], [90000.0, -0.2]]"), "dem.mound.profile", "columns")
+refused("mound of too many columns", put("", "[[0.0, -0.2], [0.2, -0.2]]", "[[0.0, -0.2], [90000.0, -0.2]]"), "dem.mound.profile", "spheres")
 refused("time step of zero", put("", "width = 0.1", "width = 0.1\ntime_step = 0.0"), "dem.time_step")
 refused("Poisson ratio that cannot be", put("", "width = 0.1", "width = 0.1\npoisson_ratio = 0.5"), "dem.poisson_ratio")
 refused("unknown contact law", put("", "width = 0.1", 'width = 0.1\ncontact = "herz"'), "dem.contact", "hertz")
@@ -80,6 +85,81 @@ refused("link with a third block", put("[[wires.link]]\nblocks = [1, 2, 3]\n"), 
 refused("span of columns the wrong way round", put("[[wires.along]]\nrows = [1]\ncolumns = [2, 1]\n"), "wires.along", "columns")
 refused("orientation of no length", put('[[dem.block]]\nshape = "sphere"\nposition = [0.05, 0.05, -0.1]\norientation = [0.0, 0.0, 0.0, 0.0]\n'), "orientation")
 refused("plane without a normal", put("", "width = 0.1", "width = 0.1\nplanes = [{ point = [0.0, 0.0, -1.0], normal = [0.0, 0.0, 0.0] }]"), "normal")
+# Steps that contacts and wires cannot bear, as far as a short trial shows; and those they can are let through.
+def dem_keys(text):
+    return put("", "width = 0.1", "width = 0.1\n" + text)
+
+
+for verb in ("run", "pack", "check"):
+    refused(f"{verb}: time step past what contacts bear", dem_keys("time_step = 0.01"), "scene.toml:6:", "dem.time_step", "past the limit", verb=verb)
+refused("time step at which blocks tremble", dem_keys("time_step = 1.0e-3"), "dem.time_step", "past the limit")
+refused("dashpots too strong for the step", dem_keys("damping_ratio = 10.0"), "dem.time_step", "the program's choice")
+refused("wires too stiff for the step", put("[[wires.link]]\nblocks = [1, 2]\nstiffness = 1.0e12\n"), "dem.time_step", "wires")
+refused("shape too easily turned for the step", put('[[dem.block]]\nshape = "light.toml"\nposition = [0.05, 0.05, -0.185]\n'), "dem.time_step", "past the limit",
+        files={"light.toml": "[dem.shape]\nspheres = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]\ninertia = [1.0e-16, 1.0e-16, 1.0e-16]\n"})
+for step in (2.0e-4, 4.0e-4):
+    r = run(dem_keys(f"time_step = {step}"))
+    check.true(f"a step of {step} s, which contacts bear, runs", r.status == 0, r.message)
+refused("time step that never arrives", dem_keys("time_step = 1.0e-300"), "dem.time_step", "steps to time.end")
+refused("elements too soft to stand", dem_keys("young_modulus = 1.0e-3"), "dem.young_modulus", "too soft")
+refused("deep overlaps that stop before they are counted", dem_keys("overlap_noted = 0.6"), "dem.overlap_noted", "overlap_limit")
+refused("output interval of zero", dem_keys("output_interval = 0.0"), "dem.output_interval")
+refused("current without water", dem_keys("dry = true\ncurrent = [1.0, 0.0, 0.0]"), "scene.toml:7:", "dem.current", "no water")
+refused("blocks that float", dem_keys("density_ratio = 0.5"), "dem.density_ratio", "floats")
+refused("blocks that float by the water they displace", put("", "rows = 2", "rows = 2\ndisplaced_volume = 1.0"), "dem.blocks.displaced_volume", "floats")
+refused("fixed spheres in one place", dem_keys("fixed_spheres = [[0.0, 0.0, -3.0], [0.1, 0.0, -3.0], [0.0, 0.0, -3.0]]"), "dem.fixed_spheres", "1 and 3")
+refused("plane of two coordinates", dem_keys("planes = [{ point = [0.0, 0.0], normal = [0.0, 0.0, 1.0] }]"), "planes[1].point", "3 numbers")
+refused("element of no size", dem_keys("element_diameter = 0.0"), "dem.element_diameter")
+refused("more blocks than memory", put("", "rows = 2\ncolumns = 2", "rows = 10000\ncolumns = 10000") + "[[wires.along]]\nrows = [1]\n", "dem.blocks.rows", "at most 1e+06")
+refused("mound of too much roughness", put("", "roughness = 0.004", "roughness = 4000.0"), "dem.mound.profile", "spheres")
+refused("mound of too much depth", put("", "roughness = 0.004", "roughness = 0.004\nleast_depth = 1.0e9"), "dem.mound.profile", "spheres")
+refused("seed of more than 32 bits", put("", "roughness = 0.004", "roughness = 0.004\nseed = 4294967297"), "dem.mound.seed")
+
+# Single blocks.
+SINGLE = '[[dem.block]]\nshape = "sphere"\nposition = [0.05, 0.05, -0.1]\n'
+refused("orientation of no length, and a link to that block", put(SINGLE + "orientation = [0.0, 0.0, 0.0, 0.0]\n[[wires.link]]\nblocks = [1, 5]\n"), "scene.toml:20:", "orientation")
+refused("no other block than one of no orientation", '[time]\nend = 0.1\n[dem]\ndry = true\n' + SINGLE + "orientation = [0.0, 0.0, 0.0, 0.0]\n", "scene.toml:8:", "orientation")
+refused("orientation that is not finite", put(SINGLE + "orientation = [nan, 0.0, 0.0, 0.0]\n"), "orientation")
+refused("orientation of three numbers", put(SINGLE + "orientation = [1.0, 0.0, 0.0]\n"), "orientation", "4 numbers")
+refused("velocity that is not finite", put(SINGLE + "velocity = [inf, 0.0, 0.0]\n"), "velocity")
+refused("velocity past all contacts", put(SINGLE + "velocity = [1.0e6, 0.0, 0.0]\n"), "scene.toml:20:", "velocity", "contacts would be missed")
+refused("spin past all contacts", put(SINGLE + "angular_velocity = [1.0e6, 0.0, 0.0]\n"), "angular_velocity", "contacts would be missed")
+refused("velocity of a fixed block", put(SINGLE + "velocity = [1.0, 0.0, 0.0]\nfixed = true\n"), "scene.toml:20:", "velocity", "does not move")
+refused("unknown key of a block", put(SINGLE + "mass = 3.0\n"), "mass", "unknown key")
+
+# Links.
+FIXED = ("rows = 2", "rows = 2\nfixed_rows = 1")
+refused("link between two fixed blocks", put("[[wires.link]]\nblocks = [5, 6]\n", *FIXED), "scene.toml:19:", "wires.link[1].blocks", "blocks 5 and 6 are both fixed")
+r = run(put("[[wires.link]]\nblocks = [1, 5]\n", *FIXED))
+check.true("a link from a fixed block to one that moves is mounted", r.status == 0 and r.figure("wires.count") > 0, r.message)
+refused("the same spheres linked twice, the other way round", put("[[wires.link]]\nblocks = [1, 2]\nspheres = [3, 4]\n[[wires.link]]\nblocks = [2, 1]\nspheres = [4, 3]\n"), "scene.toml:21:", "linked twice")
+refused("the same row twice", put("[[wires.along]]\nrows = [1, 1]\n"), "scene.toml:18:", "linked twice")
+refused("row and link the same", put("[[wires.along]]\nrows = [1]\n[[wires.link]]\nblocks = [2, 1]\n"), "linked twice")
+refused("list of no rows", put("[[wires.along]]\nrows = []\n"), "wires.along[1].rows", "names none")
+refused("span of one column", put("[[wires.along]]\nrows = [1]\ncolumns = [1, 1]\n"), "wires.along[1].columns", "neighbours")
+refused("span that is not whole", put("[[wires.along]]\nrows = [1]\ncolumns = [1.5, 2.0]\n"), "wires.along[1].columns", "whole numbers")
+refused("rows where there are none", '[time]\nend = 0.1\n[dem]\ndry = true\n' + SINGLE + "[[wires.along]]\nrows = [1]\n", "wires.along[1]", "needs [dem.blocks]")
+refused("one wire of two spheres, and how many", put("[[wires.link]]\nblocks = [1, 2]\nspheres = [1, 2]\nwires = 5\n"), "scene.toml:20:", "wires.link[1].wires", "does not go with spheres")
+refused("more wires than spheres face each other", put("[[wires.link]]\nblocks = [1, 2]\nwires = 500\n"), "wires.link[1].wires", "18 pairs")
+refused("rest length and slack", put("[[wires.link]]\nblocks = [1, 2]\nrest_length = 0.02\nslack = 0.01\n"), "scene.toml:20:", "slack", "rest_length")
+
+
+# Shape files.
+def refused_shape(what, text, *words):
+    refused(f"shape {what}", put("", '"beehive96"', '"mine.toml"'), "scene.toml:7:", "dem.blocks.shape", *words, files={"mine.toml": text})
+
+
+TWO = "[dem.shape]\nspheres = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]\n"
+refused_shape("of no spheres", "[dem.shape]\nspheres = []\n", "at least one sphere")
+refused_shape("with a sphere twice", "[dem.shape]\nspheres = [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]\n", "at the same place")
+refused_shape("with spheres of two coordinates", "[dem.shape]\nspheres = [[0.0, 0.0], [1.0, 0.0]]\n", "mine.toml:2:", "3 numbers", "and 1 more")
+refused_shape("with a sphere at no number", "[dem.shape]\nspheres = [[0.0, 0.0, nan]]\n", "mine.toml:2:", "spheres")
+refused_shape("of no mass", TWO + "mass = 0.0\n", "mine.toml:3:", "mass")
+refused_shape("of negative inertia", TWO + "inertia = [1.0e-6, 1.0e-6, -1.0e-6]\n", "mine.toml:3:", "inertia")
+refused_shape("of an inertia no body has", TWO + "inertia = [1.0e-6, 1.0e-6, 1.0e-5]\n", "no body has the moments of inertia")
+refused_shape("with an unknown key", TWO + "element = 2.0\n", "mine.toml:3:", "did you mean 'elements'")
+refused_shape("with sections of a scene", TWO + "[wires]\npsi = 1.0\n", "mine.toml:3:", "wires", "does not belong in a shape")
+
 refused("broken TOML", put("[[wires.link"), "scene.toml:17")
 
 far = tempfile.mkdtemp(prefix="tsunagi_flow_")
@@ -88,6 +168,10 @@ refused("flow that does not cover the blocks", GOOD, "does not cover block", arg
 short = tempfile.mkdtemp(prefix="tsunagi_flow_")
 write_flow(short, standing_wave(0.05, 1.2, 0.3, 1.0), np.linspace(0.0, 1.0, 20), np.linspace(-0.3, 0.2, 11), 0.0, 0.1, 0.1, 0.02)
 refused("flow that ends before the time asked for", GOOD, "the flow ends at t = 0.1 s", arguments=("--flow", short))
+whole = tempfile.mkdtemp(prefix="tsunagi_flow_")
+write_flow(whole, standing_wave(0.05, 1.2, 0.3, 1.0), np.linspace(0.0, 1.0, 20), np.linspace(-0.3, 0.2, 11), 0.0, 0.2, 0.1, 0.02)
+refused("flow where all is dry", dem_keys("dry = true"), "scene.toml:6:", "dem.dry", "--flow", arguments=("--flow", whole))
+refused("flow and a current", dem_keys("current = [1.0, 0.0, 0.0]"), "scene.toml:6:", "dem.current", "--flow", arguments=("--flow", whole))
 refused("flow folder that is not there", GOOD, "no such folder", arguments=("--flow", "/nonexistent"))
 
 other = tempfile.mkdtemp(prefix="tsunagi_flow_")
