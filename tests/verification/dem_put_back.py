@@ -100,6 +100,7 @@ check.true("no block was put back there", undisturbed.figure("put_back.blocks") 
 moved = os.path.join(base, "moved")
 shutil.copytree(still.folder, moved)
 state = os.path.join(moved, "state.h5")
+home_as_packed = home.copy()
 home[5, 0] -= 0.004
 with h5py.File(state, "r+") as f:
     position, packed_position = f["/blocks/position"][:], f["/packed/position"][:]
@@ -190,6 +191,12 @@ window = os.path.join(wet.folder, "window_000003.h5")
 calm = run(LATER + "[dem.restart]\ncalm = true\n", "--flow", flow, "--from", window)
 check.true("a calm start", calm.status == 0 and calm.figure("restart.settling_time") >= 0.1 and "put_back" not in calm.record["figures"], calm.message)
 check.true("begins at rest", not calm.series("/blocks/velocity")[0].any() and wet.series("/blocks/velocity").any())
+
+# All blocks put back after waves: the packing again, but for the springs of its contacts, which are worth some thousandths of d.
+everything = run(LATER.replace("end = 2.0", "end = 2.1"), "--from", os.path.join(wet.folder, "state.h5"), "--wires", written("all.toml", "[wires.put_back]\nrows = [1, 2, 3]\n"))
+went = np.linalg.norm(wet.series("/blocks/position")[-1] - home_as_packed, axis=-1).max() / D
+check.true("waves moved them", everything.status == 0 and went > 0.3, f"{went:.2g} d {everything.message}")
+check.below("all blocks put back: off the packing", np.linalg.norm(first_sample(everything)[0] - home_as_packed, axis=-1).max() / D, 0.02, "d")
 
 # From a window: its end has the springs of contacts, instants inside it have not, and the program says so.
 end = run(LATER, "--flow", flow, "--from", window)

@@ -16,6 +16,7 @@ import os
 import pathlib
 import subprocess
 import sys
+import tomllib
 
 import numpy
 
@@ -70,6 +71,15 @@ def displacement(folder):
     time, position = run_folder.read_series(folder, "/blocks/position")
     free = run_folder.read_geometry(folder)["/blocks/fixed"] == 0
     way = position[-1] - position[0]
+    return numpy.linalg.norm(way, axis=1)[free], -way[free, 0]
+
+
+def lasting(folder):
+    """Displacement of every free block without its rocking: mean position over the last wave period against the first sample of
+    this run; total and offshore, m."""
+    time, position = run_folder.read_series(folder, "/blocks/position")
+    free = run_folder.read_geometry(folder)["/blocks/fixed"] == 0
+    way = position[time > time[-1] - PERIOD].mean(axis=0) - position[0]
     return numpy.linalg.norm(way, axis=1)[free], -way[free, 0]
 
 
@@ -135,6 +145,7 @@ def write_csv(name, rows):
 
 
 flow = find_flow()
+PERIOD = tomllib.loads(options.scene.read_text())["waves"]["period"]
 probe = dem("run", runs / "probe", "--flow", flow, *(["--set", f"time.end={SHORT_END}"] if options.smoke else []), seed=1)
 arrival = run_folder.read_run(probe)["figures"]["clock"]["waves_reach_blocks"]
 flow_end = run_folder.read_run(probe)["figures"]["clock"]["end"]
@@ -155,10 +166,14 @@ for seed in seeds:
         total, offshore = displacement(folder)
         figures = run_folder.read_run(folder)["figures"]
         farthest = excursion(folder)
+        stays, stays_offshore = lasting(folder)
         rows.append({"case": name, "seed": seed, "wired_mean_m": total[wired].mean(), "wired_offshore_m": offshore[wired].mean(),
                      "unwired_sea_side_mean_m": total[bare].mean(), "unwired_sea_side_offshore_m": offshore[bare].mean(),
                      "all_mean_m": total.mean(), "all_offshore_m": offshore.mean(), "largest_m": total.max(),
-                     "largest_offshore_m": offshore.max(), "excursion_mean_m": farthest.mean(), "excursion_row_5_m": farthest[80:].mean(),
+                     "largest_offshore_m": offshore.max(), "lasting_mean_m": stays.mean(), "lasting_largest_m": stays.max(), "lasting_largest_offshore_m": stays_offshore.max(),
+                     "lasting_wired_offshore_m": stays_offshore[wired].mean(),
+                     "lasting_unwired_sea_side_offshore_m": stays_offshore[bare].mean(),
+                     "excursion_mean_m": farthest.mean(), "excursion_row_5_m": farthest[80:].mean(),
                      "excursion_largest_m": farthest.max(),
                      "put_back_mean_m": figures.get("put_back", {}).get("mean_distance_settled", ""),
                      "put_back_largest_m": figures.get("put_back", {}).get("largest_distance_settled", ""),
@@ -202,17 +217,22 @@ def column(case, key):
 
 summary = {"waves_reach_blocks_s": arrival, "end_s": end, "seeds": len(seeds), "mean and half width of 95 % interval": {}}
 for case in ("case1", "case2", "control", "unwired"):
-    summary["mean and half width of 95 % interval"][case] = {key: mean_and_spread(column(case, key)) for key in
-                                   ("wired_mean_m", "wired_offshore_m", "unwired_sea_side_mean_m", "unwired_sea_side_offshore_m", "all_mean_m", "all_offshore_m", "largest_m", "excursion_mean_m", "excursion_row_5_m", "excursion_largest_m")}
-more = numpy.array(column("case1", "unwired_sea_side_offshore_m")) - numpy.array(column("case1", "wired_offshore_m"))
-same = numpy.array(column("unwired", "wired_offshore_m")) - numpy.array(column("case1", "wired_offshore_m"))
-farthest = numpy.array(column("unwired", "largest_offshore_m")) - numpy.array(column("case1", "largest_offshore_m"))
-summary["2a unwired of rows 4-5 farther offshore than wired in case 1"] = {"difference_m": mean_and_spread(more), "seeds_in_which_so": int((more > 0).sum())}
-summary["2b the wired blocks of case 1, were they not wired, farther offshore"] = {"difference_m": mean_and_spread(same), "seeds_in_which_so": int((same > 0).sum())}
-summary["2c farthest block of all farther offshore without any wire than in case 1"] = {"difference_m": mean_and_spread(farthest), "seeds_in_which_so": int((farthest > 0).sum())}
-for title, key in (("3 case 2 moves less than case 1 over the same waves", "all_mean_m"), ("3b the same, farthest from its start during the waves", "excursion_mean_m"),
+    summary["mean and half width of 95 % interval"][case] = {key: mean_and_spread(column(case, key)) for key in (
+        "wired_mean_m", "wired_offshore_m", "unwired_sea_side_mean_m", "unwired_sea_side_offshore_m", "all_mean_m", "all_offshore_m", "largest_m",
+        "lasting_mean_m", "lasting_largest_m", "excursion_mean_m", "excursion_row_5_m", "excursion_largest_m")}
+# Blocks rock with every wave: what lasts is told from where they stand on average over the last one.
+for when, prefix in (("at the last instant", ""), ("lasting", "lasting_")):
+    for title, one, one_key, other, other_key in (
+            ("2a unwired of rows 4-5 farther offshore than wired in case 1", "case1", "unwired_sea_side_offshore_m", "case1", "wired_offshore_m"),
+            ("2b the wired blocks of case 1, were they not wired, farther offshore", "unwired", "wired_offshore_m", "case1", "wired_offshore_m"),
+            ("2c farthest block of all farther offshore without any wire than in case 1", "unwired", "largest_offshore_m", "case1", "largest_offshore_m")):
+        more = numpy.array(column(one, prefix + one_key)) - numpy.array(column(other, prefix + other_key))
+        summary[f"{title}, {when}"] = {"difference_m": mean_and_spread(more), "each_m": [float(value) for value in more], "seeds_in_which_so": int((more > 0).sum())}
+for title, key in (("3 case 2 moves less than case 1 over the same waves, lasting", "lasting_mean_m"), ("3a the same, at the last instant", "all_mean_m"),
+                   ("3b the same, farthest from its start during the waves", "excursion_mean_m"),
                    ("3c the same, row 5", "excursion_row_5_m"), ("3d the same, farthest block", "excursion_largest_m"),
-                   ("3e the same, farthest block at the end", "largest_m")):
+                   ("3e the same, farthest block at the last instant", "largest_m"),
+                   ("3f the same, farthest block, lasting", "lasting_largest_m")):
     less = numpy.array(column("control", key)) - numpy.array(column("case2", key))
     summary[title] = {"difference_m": mean_and_spread(less), "of_m": mean_and_spread(column("control", key)), "seeds_in_which_so": int((less > 0).sum())}
 for wires in ("all", "new"):
