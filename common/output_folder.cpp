@@ -90,8 +90,11 @@ OutputFolder::OutputFolder(fs::path folder, RunIdentity identity, bool resume)
     if (resume && !is_damaged && fs::exists(state)) {
         DataFile saved = read_data_file(state);
         if (!belongs_to(saved, identity_))
-            throw InputError(fmt::format(
-                "{}: belongs to another scene or input; run without --resume to start anew", state.string()));
+            throw InputError(fmt::format("{}: belongs to another {}; run without --resume to start anew",
+                                         state.string(),
+                                         saved.text("input_digest") == identity_.input_digest
+                                             ? "scene"
+                                             : "input (what it was computed from has changed)"));
         next_window_ = saved.integer("next_window");
         start_ = Start::go_on;
         for (std::int64_t k = 0; k < next_window_; ++k)

@@ -110,6 +110,11 @@ void Report::warn(const std::string& name, const std::string& message) {
     keep_warning(name, message);
 }
 
+void Report::say(const std::string& name, const std::string& message) {
+    fmt::print(stderr, "dem: {}\n", message);
+    record_.set_note(name, message);
+}
+
 void Report::keep_warning(const std::string& name, const std::string& message) {
     warning_name_ = name;
     warning_ = message;

@@ -22,7 +22,9 @@ class Report {
     void look(const Simulation& simulation);
     /// Figures and invariants at the end of a window.
     void window_done(const Simulation& simulation, const PackedPoses& packed, std::int64_t windows);
-    /// Something the user must know, on the terminal and as a note in run.json.
+    /// Something the user may want to know, on the terminal and as a note in run.json.
+    void say(const std::string& name, const std::string& message);
+    /// Something the user must know, the same way; a run taken up again keeps it.
     void warn(const std::string& name, const std::string& message);
     /// How blocks came to rest before the run, and those put back.
     void began_calm(const CalmRecord& record);

@@ -115,6 +115,19 @@ std::string input_digest_of(const common::StageCommand& command, FlowSource& flo
     return digest;
 }
 
+/// Legal, since a layout may be tried in any waves; but whoever compares the two runs should know. Empty
+/// where the earlier run had the same flow, or is a packing.
+std::string other_flow_of(const common::StageCommand& command, FlowSource& flow) {
+    if (command.from.empty()) return {};
+    const common::DataFile earlier = common::read_data_file(command.from);
+    const auto packing = earlier.attributes.find("is_packing");
+    if (packing != earlier.attributes.end() && earlier.integer("is_packing") != 0) return {};
+    const std::string before = earlier.text("input_digest"), now = flow.digest();
+    // A run that itself went on from another has the digests of both, the flow's first.
+    if (now.empty() || before.empty() || before.starts_with(now)) return {};
+    return fmt::format("the run goes on in another flow than that of {}", command.from.string());
+}
+
 std::string scene_digest_of(const common::SceneFile& file, const common::SceneFile* layout,
                             const Scene& scene, const std::string& input) {
     return file.digest((layout != nullptr ? layout->digest() : std::string()) +
@@ -212,6 +225,8 @@ void run(const common::StageCommand& command, const common::SceneFile& file, con
     if (folder.start() == common::OutputFolder::Start::nothing_to_do) return;
     common::Progress progress("dem", begin, scene.time.end, command.quiet);
     Report report(command.out, file, scene, digest, input);
+    if (const std::string other = other_flow_of(command, flow); !other.empty())
+        report.say("restart.flow", other);
     try {
         Start start;
         std::optional<FlowSource::Span> span = flow.receive(folder.next_window());

@@ -57,6 +57,15 @@ while not os.path.exists(os.path.join(out, "window_000002.h5")) and process.poll
 process.send_signal(signal.SIGKILL)
 process.wait()
 before = len([n for n in os.listdir(out) if n.startswith("window_")])
+# The same mound and grid under waves of another height: not what the first windows were computed from.
+higher = tempfile.mkdtemp(prefix="tsunagi_flow_")
+write_flow(higher, standing_wave(0.3, 1.2, 0.3, 1.0), np.linspace(0.5, 1.0, 26), np.linspace(-0.3, 0.2, 26), 0.0, 2.0, 0.25, 0.025, digest="higher-waves")
+wrong = run(SCENE, "--flow", higher, "--resume", folder=base)
+lines = wrong.message.strip().splitlines()
+check.true("resumed in the flow of other waves: refused with one line", wrong.status == 2 and len(lines) == 1 and "state.h5: belongs to another input" in lines[0], wrong.message.strip())
+wrong = run(SCENE.replace("psi = 0.3", "psi = 0.2"), "--flow", flow, "--resume", folder=base)
+check.true("resumed with another scene: refused, and nothing lost", wrong.status == 2 and "belongs to another scene" in wrong.message and
+           len([n for n in os.listdir(out) if n.startswith("window_")]) == before, wrong.message.strip())
 resumed = run(SCENE, "--flow", flow, "--resume", folder=base)
 check.true("killed run had windows left to do", before < 8, f"{before} of 8")
 check.true("killed and resumed: same bytes", resumed.windows() == whole.windows(), resumed.message)
@@ -99,6 +108,13 @@ check.true("blocks put back stand nearer to their packed places", after < 0.5 * 
 unchanged = run(SCENE + "\n[dem.restart]\ntime = 0.9\n", "--flow", flow, "--from", window)
 check.true("without changes blocks stay where they were", np.array_equal(unchanged.series("/blocks/position")[0], whole.series("/blocks/position")[at]))
 check.true("links were added", changed.figure("wires.count") == 2 * whole.figure("wires.count"))
+
+# Other waves in a restart are legal, and said; in the same waves there is nothing to say.
+other = run(SCENE, "--flow", higher, "--from", os.path.join(whole.folder, "window_000003.h5"))
+check.true("a restart in other waves runs and says so", other.status == 0 and "another flow" in other.message and "another flow" in str(other.record["notes"]["restart"]["flow"]), other.message.strip())
+for start, name in ((whole, "window_000003.h5"), (packed, "state.h5")):
+    same = run(SCENE, "--flow", flow, "--from", os.path.join(start.folder, name))
+    check.true(f"a start from {name} in the same waves says nothing of it", same.status == 0 and "another flow" not in same.message, same.message.strip())
 
 # Slack: wires longer than the packed distance carry nothing until the slack is used up.
 slack = run(SCENE.replace("rows = [3]", "rows = [3]\nslack = 0.05"), "--flow", flow)
