@@ -208,7 +208,6 @@ Wires layout_wires(const Blocks& blocks, const Scene& scene, const Wires* earlie
             wires.rest_length.back() = earlier->rest_length[old->second];
             wires.is_intact.back() = earlier->is_intact[old->second];
             wires.broken_at.back() = earlier->broken_at[old->second];
-            wires.largest_tension.back() = earlier->largest_tension[old->second];
         }
     return wires;
 }

@@ -107,6 +107,7 @@ with h5py.File(state, "r+") as f:
     position[5, 2] += 0.04
     packed_position[5, 0] -= 0.004
     f["/blocks/position"][...], f["/packed/position"][...] = position, packed_position
+    f["/wires/largest_tension"][...] = 99.0
 gap = run(LATER, "--from", state, "--wires", layout)
 check.true("a restart with a neighbour in the gap runs", gap.status == 0, gap.message)
 at, c, *_ = first_sample(gap)
@@ -126,6 +127,7 @@ for i in range(ROWS * COLUMNS):
 check.below("deepest overlap of blocks when the run starts", overlap / D, 0.03, "d")
 check.true("settling took time outside the run", gap.figure("restart.settling_time") >= 0.1 and gap.series("/time")[0] == 1.0)
 check.below("the run's books begin with it", abs(gap.series("/energy")[0, 4]), 0.0, "J")
+check.below("so does the largest tension", gap.figure("wires.largest_tension"), 98.0, "N")
 check.below("energy balance of the run", abs(gap.invariant("energy_closure")), 0.02)
 
 # Wires: new ones and those of blocks put back are mounted at rest, to rounding; kept ones keep their rest length, and are slack
