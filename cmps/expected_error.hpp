@@ -12,10 +12,8 @@ struct ExpectedError {
     double wave_height;     ///< standing wave, kh = 1.6: share of the height lost in a period
 };
 
-/// Beyond the ladder's ends the end's figures are taken (finer) or the trend is continued (coarser).
-ExpectedError expected_error(double particles_over_depth);
-
-/// One line for `check`: what the figures are errors of, and where they come from.
-std::string expected_error_text(double particles_over_depth);
+/// One line for `check`: what the figures are errors of, and where they come from. Beyond the ladder's ends
+/// the end's figures are taken (finer) or the trend is continued (coarser). `kernel_radius`: over l0.
+std::string expected_error_text(double particles_over_depth, double kernel_radius);
 
 }  // namespace cmps

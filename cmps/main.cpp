@@ -92,7 +92,8 @@ int check(const common::StageCommand& command, const common::SceneFile& file, co
                         {"run time", fmt::format("about {} on this machine, one thread",
                                                  common::run_time_text(forecast.seconds))},
                         {"memory", fmt::format("about {:.0f} MB", forecast.memory / 1e6)},
-                        {"error", cmps::expected_error_text(scene.settings.depth / scene.settings.spacing)}});
+                        {"error", cmps::expected_error_text(scene.settings.depth / scene.settings.spacing,
+                                                            scene.settings.kernel_radius_ratio)}});
     return common::exit_done;
 }
 
