@@ -34,7 +34,8 @@ else:
     strongest = time[tension.max(axis=1).argmax()] if has_wires else time[-1]
     wanted = [time[0], strongest if time[0] < strongest < time[-1] else 0.5 * (time[0] + time[-1]), time[-1]]
 samples = [numpy.abs(time - instant).argmin() for instant in wanted]
-pairs, link_of_wire = numpy.unique(ends[:, [0, 2]], axis=0, return_inverse=True)
+pairs, first_wire, link_of_wire = numpy.unique(ends[:, [0, 2]], axis=0, return_index=True, return_inverse=True)
+to_image = geometry.get("/wires/image_offset", numpy.zeros(len(ends)))[first_wire]  # across periodic sides
 
 
 def total(values):
@@ -73,6 +74,7 @@ for axis, sample in zip(axes, samples):
     if has_wires:
         link_tension, broken = total(tension[sample]), total(intact[sample] == 0) > 0
         places = position[sample][pairs][:, :, [1, 0]]
+        places[:, 1, 0] += to_image
         # From edge to edge of the facing halves, so that the numbers stay readable.
         segments = places + 0.28 * (places[:, ::-1] - places)
         order = numpy.argsort(link_tension)
