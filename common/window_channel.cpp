@@ -221,12 +221,13 @@ const Window& WindowReader::first() {
 }
 
 std::optional<std::int64_t> WindowReader::index_at(double t) {
+    constexpr double rounding = 1e-9;  // s: times are whole nanoseconds but for their last bits
     const Window& begin = first();
-    if (t < begin.t_begin) return {};
+    if (t < begin.t_begin - rounding) return {};
     for (std::int64_t index = begin.index;; ++index) {
         const auto window = receive(index);
         if (!window) return {};
-        if (t < window->t_end) return index;
+        if (t < window->t_end - rounding) return index;
     }
 }
 

@@ -188,7 +188,8 @@ Wires layout_wires(const Blocks& blocks, const Scene& scene, const Wires* earlie
     std::map<WirePlace, std::size_t> known;
     if (earlier != nullptr)
         for (std::size_t k = 0; k < earlier->size(); ++k)
-            known[{earlier->block_a[k], earlier->sphere_a[k], earlier->block_b[k], earlier->sphere_b[k]}] = k;
+            known[in_order(
+                {earlier->block_a[k], earlier->sphere_a[k], earlier->block_b[k], earlier->sphere_b[k]})] = k;
     const auto was_put_back = [&](std::uint32_t block) {
         return std::binary_search(scene.wires.put_back.begin(), scene.wires.put_back.end(), block);
     };
@@ -196,7 +197,7 @@ Wires layout_wires(const Blocks& blocks, const Scene& scene, const Wires* earlie
     for (const auto& link : scene.wires.links)
         for (const auto& place : wires_of(scene.placed, link, period)) {
             const double stiffness = link.stiffness.value_or(scene.wires.stiffness);
-            const auto old = known.find(place);
+            const auto old = known.find(in_order(place));
             const bool is_kept =
                 old != known.end() && !was_put_back(place.block_a) && !was_put_back(place.block_b);
             if (only_kept && !is_kept) continue;

@@ -17,13 +17,14 @@ std::vector<Displacement> displacements(const Blocks& blocks, const std::vector<
 
 Damage assess_damage(const Blocks& blocks, const std::vector<Displacement>& moved, double width) {
     Damage damage;
-    double count = 0, length = 0;
+    double count = 0, length_moved = 0;
     for (std::size_t i = 0; i < blocks.size(); ++i) {
         if (blocks.is_fixed[i]) continue;
         ++count;
-        length = blocks.shape_of(i).length;
+        const double length = blocks.shape_of(i).length;
         for (std::size_t k = 0; k < Damage::levels.size(); ++k)
             if (moved[i].total > Damage::levels[k] * length) ++damage.moved[k];
+        if (moved[i].total > 0.5 * length) length_moved += length;
         damage.mean_displacement += moved[i].total;
         damage.mean_offshore += moved[i].offshore;
         damage.largest_displacement = std::max(damage.largest_displacement, moved[i].total);
@@ -32,7 +33,7 @@ Damage assess_damage(const Blocks& blocks, const std::vector<Displacement>& move
         damage.mean_displacement /= count;
         damage.mean_offshore /= count;
     }
-    if (width > 0 && length > 0) damage.number = static_cast<double>(damage.moved[1]) / (width / length);
+    if (width > 0) damage.number = length_moved / width;
     return damage;
 }
 

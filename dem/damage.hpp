@@ -19,7 +19,9 @@ struct Displacement {
 struct Damage {
     static constexpr std::array<double, 3> levels{0.25, 0.5, 1.0};  ///< displacement over block length
     std::array<std::size_t, 3> moved{};                             ///< blocks beyond each level
-    double number = 0;  ///< N_od = blocks moved beyond half a length / (width / block length)
+    /// N_od = blocks moved beyond half a length / (width / block length); of blocks of several lengths, each
+    /// counts with its own.
+    double number = 0;
     double mean_displacement = 0, mean_offshore = 0, largest_displacement = 0;  ///< m
 };
 

@@ -24,6 +24,11 @@ std::vector<std::uint32_t> side_spheres(const Blocks& placed, std::uint32_t bloc
 
 }  // namespace
 
+WirePlace in_order(const WirePlace& place) {
+    if (place.block_a <= place.block_b) return place;
+    return {place.block_b, place.sphere_b, place.block_a, place.sphere_a};
+}
+
 double nearest_image(const Blocks& placed, std::uint32_t block_a, std::uint32_t block_b, double period) {
     if (period == 0) return 0;
     return -period * std::round((placed.position[block_b].y() - placed.position[block_a].y()) / period);

@@ -29,6 +29,9 @@ struct WirePlace {
     auto operator<=>(const WirePlace&) const = default;
 };
 
+/// The same wire with the lower block first.
+WirePlace in_order(const WirePlace& place);
+
 /// How much further in y the image of block b stands that is nearest to block a, m. `period`: width of the
 /// periodic box; 0: none. A link joins a block to that image, for good.
 double nearest_image(const Blocks& placed, std::uint32_t block_a, std::uint32_t block_b, double period);

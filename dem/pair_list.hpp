@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -69,6 +70,8 @@ struct Surroundings {
     FixedSpheres fixed_spheres;
     std::vector<Plane> planes;
     double period = 0;  ///< width of the periodic box in y, m; 0: not periodic
+    double mound_floor =
+        -std::numeric_limits<double>::infinity();  ///< lowest sphere of the mound, m; -infinity: no mound
 };
 
 class PairList {

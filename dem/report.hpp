@@ -41,12 +41,17 @@ class Report {
     const Scene& scene_;
     std::optional<CalmRecord> calm_;
     std::string warning_name_, warning_;
-    double first_balance_ = 0, first_size_ = 0, smallest_limit_, stepping_seconds_ = 0;
+    EnergyBudget first_energy_;
+    double smallest_limit_, stepping_seconds_ = 0;
     int past_limit_ = 0;                   ///< samples in a row
     std::uint64_t first_block_steps_ = 0;  ///< of the run this one goes on from
 };
 
-/// Error of the energy balance over the energy that changed hands since the start.
-double closure_error(const EnergyBudget& energy, double first_balance, double first_size);
+/// Energy that changed hands since `first`: through contacts and water, into motion and back, and what was
+/// stored to start with, J.
+double exchanged_energy(const EnergyBudget& energy, const EnergyBudget& first);
+
+/// Error of the energy balance over the energy exchanged; 0 where none was.
+double closure_error(const EnergyBudget& energy, const EnergyBudget& first);
 
 }  // namespace dem

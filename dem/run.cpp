@@ -35,10 +35,11 @@ class FlowSource {
     /// Fixes the start; throws InputError when the flow does not reach from there to the end asked for.
     void start_at(double t) {
         start_ = t;
+        if (t >= scene_.time.end - tolerance)
+            throw common::InputError(
+                fmt::format("{}the run would start at t = {:.10g} s, and time.end = {:.10g} s is not later",
+                            has_flow() ? folder_.string() + ": " : std::string(), t, scene_.time.end));
         if (!has_flow()) {
-            if (t >= scene_.time.end)
-                throw common::InputError(fmt::format("the run would start at t = {} s, after time.end = {} s",
-                                                     t, scene_.time.end));
             clock_.emplace(t, scene_.time.end, scene_.time.window);
             return;
         }
@@ -75,6 +76,13 @@ class FlowSource {
                      end = std::min(window->t_end, scene_.time.end);
         if (end <= begin + tolerance) return {};
         return Span{begin, end, flow_grid_of(*window, scene_.still_outside)};
+    }
+    /// Throws RunError when a flow that was followed ended before the time asked for.
+    void require_end(double t) const {
+        if (t < scene_.time.end - tolerance)
+            throw common::RunError(
+                fmt::format("{}: the flow ended at t = {:.10g} s, before time.end = {:.10g} s",
+                            folder_.string(), t, scene_.time.end));
     }
 
  private:
@@ -265,6 +273,7 @@ void run(const common::StageCommand& command, const common::SceneFile& file, con
             folder.publish(std::move(window), state_of(simulation, start.packed, scene, report));
             report.window_done(simulation, start.packed, index + 1);
         }
+        flow.require_end(simulation.time());
     } catch (const common::Interrupted&) {
         report.end("interrupted", "interrupted");
         throw;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <tuple>
 
@@ -246,8 +247,9 @@ void place_armour(const Section& dem, Scene& scene, int shape, const FixedSphere
 /// single block, else at a key of `[dem.blocks]`.
 class PlacementJudge {
  public:
-    PlacementJudge(const Section& dem, const Scene& scene, std::size_t placed_singly)
-        : dem_(dem), scene_(scene), placed_singly_(placed_singly) {}
+    PlacementJudge(const Section& dem, const Scene& scene, const FixedSpheres& mound,
+                   std::size_t placed_singly)
+        : dem_(dem), scene_(scene), mound_(mound), placed_singly_(placed_singly) {}
 
     /// Stops at the first kind of mistake: a block beside the mound, inside it, or in another.
     void judge() const {
@@ -271,7 +273,7 @@ class PlacementJudge {
 
     /// A block at rest with no mound and no floor under it would fall for ever.
     bool stand_over_the_mound() const {
-        if (scene_.mound.empty()) return true;
+        if (scene_.mound.empty() || scene_.gravity.norm() == 0) return true;
         for (const auto& plane : scene_.surroundings.planes)
             if (plane.normal.dot(scene_.gravity) < -0.1 * scene_.gravity.norm()) return true;
         for (std::size_t i = 0; i < scene_.placed.size(); ++i) {
@@ -293,8 +295,7 @@ class PlacementJudge {
     bool stand_above_the_mound() const {
         for (std::size_t i = 0; i < scene_.placed.size(); ++i) {
             const Vector& p = scene_.placed.position[i];
-            const double top =
-                scene_.surroundings.fixed_spheres.highest_near(p.x(), p.y(), 0.75 * scene_.element.diameter);
+            const double top = mound_.highest_near(p.x(), p.y(), 0.75 * scene_.element.diameter);
             if (scene_.placed.is_fixed[i] || p.z() >= top) continue;
             problem(i, "level",
                     fmt::format("block {} starts inside the mound: its centre is at z = {:.4g} m, the mound "
@@ -307,6 +308,7 @@ class PlacementJudge {
 
     const Section& dem_;
     const Scene& scene_;
+    const FixedSpheres& mound_;  // without other fixed spheres: below those there may be room
     std::size_t placed_singly_;
 };
 
@@ -321,8 +323,8 @@ void judge_fixed_spheres(const Section& dem, const std::vector<Vector>& given) {
     }
 }
 
-/// Spheres that never move: those given one by one, and the mound's columns.
-void place_fixed_spheres(const Section& dem, Scene& scene, double block_height) {
+/// Spheres that never move: those given one by one, and the mound's columns. Returns the latter.
+FixedSpheres place_fixed_spheres(const Section& dem, Scene& scene, double block_height) {
     std::vector<Vector> fixed =
         vectors(dem.rows("fixed_spheres", "m", "centres of fixed spheres of diameter d", 3,
                          std::vector<std::vector<double>>{}));
@@ -330,11 +332,17 @@ void place_fixed_spheres(const Section& dem, Scene& scene, double block_height) 
     std::vector<Vector> columns;
     scene.mound = read_mound(dem, scene, block_height, columns).profile;
     fixed.insert(fixed.end(), columns.begin(), columns.end());
+    if (!columns.empty()) {
+        scene.surroundings.mound_floor = std::numeric_limits<double>::infinity();
+        for (const auto& centre : columns)
+            scene.surroundings.mound_floor = std::min(scene.surroundings.mound_floor, centre.z());
+    }
     double largest = scene.element.diameter;
     for (const auto& shape : scene.placed.shapes) largest = std::max(largest, shape.diameter);
     const double reach = 0.5 * (largest + scene.element.diameter) + scene.step.skin;
-    scene.surroundings.fixed_spheres =
-        FixedSpheres(std::move(fixed), scene.element.diameter, reach, scene.surroundings.period);
+    const double period = scene.surroundings.period;
+    scene.surroundings.fixed_spheres = FixedSpheres(std::move(fixed), scene.element.diameter, reach, period);
+    return FixedSpheres(std::move(columns), scene.element.diameter, reach, period);
 }
 
 }  // namespace
@@ -349,7 +357,7 @@ void read_blocks(const SceneFile& file, Scene& scene) {
         armour = read_armour(dem, book, scene);
         block_height = scene.placed.shapes[static_cast<std::size_t>(*armour)].height;
     }
-    place_fixed_spheres(dem, scene, block_height);
+    const FixedSpheres mound = place_fixed_spheres(dem, scene, block_height);
     if (armour) place_armour(dem, scene, *armour, scene.surroundings.fixed_spheres);
     const std::size_t placed_singly = scene.placed.size();
     read_single_blocks(dem, book, scene);
@@ -372,7 +380,7 @@ void read_blocks(const SceneFile& file, Scene& scene) {
     scene.packing.longest = packing.number("longest", "s", "packing gives up after", Range::positive(), 5.0);
     scene.packing.speed =
         packing.number("speed", "m/s", "slower blocks have settled", Range::positive(), 1e-3);
-    if (!file.has_problems()) PlacementJudge(dem, scene, placed_singly).judge();
+    if (!file.has_problems()) PlacementJudge(dem, scene, mound, placed_singly).judge();
 }
 
 }  // namespace dem

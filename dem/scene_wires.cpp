@@ -22,6 +22,10 @@ class LinkReader {
         const auto numbers =
             entry.numbers("blocks", "-", "numbers of the two blocks, from 1", 2, Range::any());
         LinkRequest link = options(entry);
+        // All keys are read before any is judged: a mistake in one does not make others unknown.
+        std::vector<double> spheres;
+        if (entry.has("spheres"))
+            spheres = entry.numbers("spheres", "-", "numbers of the two spheres, from 1", 2, Range::any());
         if (!block(entry, "blocks", numbers[0], link.block_a) ||
             !block(entry, "blocks", numbers[1], link.block_b))
             return;
@@ -35,9 +39,7 @@ class LinkReader {
                                       link.block_a + 1, link.block_b + 1));
             return;
         }
-        if (entry.has("spheres")) {
-            const auto spheres =
-                entry.numbers("spheres", "-", "numbers of the two spheres, from 1", 2, Range::any());
+        if (!spheres.empty()) {
             std::array<std::uint32_t, 2> chosen{};
             if (!sphere(entry, spheres[0], link.block_a, chosen[0]) ||
                 !sphere(entry, spheres[1], link.block_b, chosen[1]))
@@ -78,7 +80,7 @@ class LinkReader {
         if (!wires.has("put_back")) return;
         const Section section = wires.table("put_back");
         std::set<std::uint32_t> chosen;
-        if (section.has("rows"))
+        if (section.has("rows") && has_grid(section))
             for (const auto row : numbers(section, "rows", "rows put back to their packed pose", scene_.rows))
                 for (std::size_t column = 1; column <= scene_.columns; ++column)
                     chosen.insert(at(row, column));
@@ -187,10 +189,7 @@ class LinkReader {
             return;
         }
         for (auto place : places) {
-            if (place.block_a > place.block_b) {
-                std::swap(place.block_a, place.block_b);
-                std::swap(place.sphere_a, place.sphere_b);
-            }
+            place = in_order(place);
             if (!taken_.insert(place).second) {
                 entry.problem(key,
                               fmt::format("blocks {} and {} are linked twice at the same spheres ({} and {})",

@@ -199,6 +199,7 @@ DataFile to_data_file(const Snapshot& snapshot) {
                        {"dissipated", memory.dissipated},
                        {"water_work", memory.water_work},
                        {"gross_water_work", memory.gross_water_work},
+                       {"largest_kinetic", memory.largest_kinetic},
                        {"largest_overlap", memory.largest_overlap},
                        {"waves_reach_blocks", memory.waves_reach_blocks},
                        {"steps", static_cast<std::int64_t>(memory.steps)},
@@ -258,6 +259,7 @@ Snapshot snapshot_from(const DataFile& file) {
     memory.dissipated = file.number("dissipated");
     memory.water_work = file.number("water_work");
     memory.gross_water_work = file.number("gross_water_work");
+    memory.largest_kinetic = file.number("largest_kinetic");
     memory.largest_overlap = file.number("largest_overlap");
     memory.waves_reach_blocks = file.number("waves_reach_blocks");
     memory.steps = static_cast<std::uint64_t>(file.integer("steps"));

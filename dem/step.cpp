@@ -62,6 +62,7 @@ void Simulation::start(double t) {
 
 void Simulation::blocks_were_placed(double t) {
     pair_list_.rebuild();
+    largest_kinetic_ = 0;
     start(t);
 }
 
@@ -75,6 +76,7 @@ void Simulation::advance(double target) {
         if (k % every == 0) {
             common::check_for_interrupt();
             check_values();
+            note_kinetic_energy();
             const double hold = dt * static_cast<double>(std::min(every, count - k));
             for (const auto& load : own_loads_)
                 load->sample(blocks, begin + dt * static_cast<double>(k), hold);
@@ -96,6 +98,14 @@ void Simulation::advance(double target) {
         step(dt, k + 1 == count ? target : begin + dt * static_cast<double>(k + 1), is_first, is_last);
     }
     check_values();
+    note_kinetic_energy();
+}
+
+/// What weight turns into motion and back changes hands like all other energy.
+void Simulation::note_kinetic_energy() {
+    double kinetic = 0;
+    for (const auto i : awake_) kinetic += blocks.kinetic_energy(i);
+    largest_kinetic_ = std::max(largest_kinetic_, kinetic);
 }
 
 // Velocity Verlet in one sweep over pairs and blocks, so that what is known of a block passes through the
@@ -313,15 +323,12 @@ void Simulation::check_values() const {
             !blocks.orientation[i].coeffs().allFinite() || !blocks.angular_momentum[i].allFinite())
             throw common::RunError(
                 fmt::format("t = {:.5f} s: the motion of block {} is no longer finite", time_, i + 1));
-    // Below everything that could hold it, a block would fall for ever.
-    if (surroundings_.fixed_spheres.empty() || !surroundings_.planes.empty()) {
-        bool has_floor = surroundings_.fixed_spheres.empty();
-        for (const auto& plane : surroundings_.planes)
-            has_floor = has_floor || plane.normal.dot(gravity_) < -0.1 * gravity_.norm();
-        if (has_floor) return;
-    }
+    // Below a mound that was to hold it, a block would fall for ever.
+    if (gravity_.norm() == 0) return;
+    for (const auto& plane : surroundings_.planes)
+        if (plane.normal.dot(gravity_) < -0.1 * gravity_.norm()) return;
     for (const auto i : awake_)
-        if (blocks.position[i].z() < surroundings_.fixed_spheres.lowest() - 4 * blocks.shape_of(i).radius)
+        if (blocks.position[i].z() < surroundings_.mound_floor - 4 * blocks.shape_of(i).radius)
             throw common::RunError(
                 fmt::format("t = {:.5f} s: block {} has left the mound at x = {:.3f}, y = {:.3f} m and "
                             "falls; extend dem.mound.profile",
@@ -367,6 +374,7 @@ EnergyBudget Simulation::energy() const {
     budget.contacts = contact_model_->elastic_energy(blocks, surroundings_, pair_list_);
     budget.wires = wires.elastic_energy(blocks);
     budget.dissipated = dissipated_ + wires.energy_of_broken;
+    budget.largest_kinetic = std::max(largest_kinetic_, budget.kinetic);
     if (water_ != nullptr) {
         budget.water_work = water_->work;
         budget.gross_water_work = water_->gross_work;
@@ -381,6 +389,7 @@ Simulation::Memory Simulation::memory() const {
                   .dissipated = dissipated_,
                   .water_work = water_ != nullptr ? water_->work : 0,
                   .gross_water_work = water_ != nullptr ? water_->gross_work : 0,
+                  .largest_kinetic = largest_kinetic_,
                   .largest_overlap = largest_overlap_,
                   .waves_reach_blocks = water_ != nullptr ? water_->waves_reach_blocks : -1,
                   .steps = steps_,
@@ -395,6 +404,7 @@ void Simulation::restore(const Memory& memory) {
     pair_list_.restore(memory.pairs);
     time_ = memory.time;
     dissipated_ = memory.dissipated;
+    largest_kinetic_ = memory.largest_kinetic;
     largest_overlap_ = memory.largest_overlap;
     steps_ = memory.steps;
     awake_block_steps_ = memory.awake_block_steps;

@@ -32,6 +32,7 @@ struct EnergyBudget {
     double kinetic = 0, potential = 0, contacts = 0, wires = 0;  ///< stored
     double dissipated = 0;                        ///< in contacts, broken wires and by falling asleep
     double water_work = 0, gross_water_work = 0;  ///< put in by the water (buoyancy included)
+    double largest_kinetic = 0;                   ///< at any look since the start
 
     double balance() const { return kinetic + potential + contacts + wires + dissipated - water_work; }
 };
@@ -66,8 +67,9 @@ class Simulation {
     FluidLoads* water() { return water_; }
     const FluidLoads* water() const { return water_; }
     const StepRules& rules() const { return rules_; }
-    /// Largest stable step at the present contacts and wires, s; see time_step.cpp.
-    double stable_time_step() const;
+    /// Largest stable step at the present contacts and wires of the blocks that are awake (or of all), s; see
+    /// time_step.cpp.
+    double stable_time_step(bool sleepers_too = false) const;
 
     Blocks blocks;
     Wires wires;
@@ -76,7 +78,8 @@ class Simulation {
     struct Memory {
         std::vector<TouchingPair> pairs;  ///< those that touch
         std::optional<Sleeping::Memory> sleeping;
-        double time, dissipated, water_work, gross_water_work, largest_overlap, waves_reach_blocks;
+        double time, dissipated, water_work, gross_water_work, largest_kinetic, largest_overlap,
+            waves_reach_blocks;
         std::uint64_t steps, awake_block_steps, deep_contact_steps;
     };
     Memory memory() const;
@@ -103,6 +106,7 @@ class Simulation {
     bool sample_doubtful(double t);
     void note_overlap(const Pair& pair, double overlap);
     void check_values() const;
+    void note_kinetic_energy();
     void find_awake();
     void find_active();
 
@@ -124,7 +128,7 @@ class Simulation {
     std::vector<std::uint32_t> active_;                   ///< pairs that may touch, with a block awake
     std::vector<PairForces> portion_;                     ///< of the pairs at hand
     double damping_power_ = 0;                            ///< of the dashpots in the step at hand, W
-    double time_ = 0, dissipated_ = 0, largest_overlap_ = 0;
+    double time_ = 0, dissipated_ = 0, largest_kinetic_ = 0, largest_overlap_ = 0;
     std::uint64_t steps_ = 0, awake_block_steps_ = 0, deep_contact_steps_ = 0;
 };
 

@@ -36,9 +36,14 @@ void add_spring(Matrix6& matrix, const Vector& arm, const Vector& direction, dou
 
 }  // namespace
 
-double Simulation::stable_time_step() const {
+double Simulation::stable_time_step(bool sleepers_too) const {
+    const std::vector<std::uint32_t>& judged = sleepers_too ? movable_ : awake_;
+    std::vector<std::vector<std::uint32_t>> wires_of(judged.empty() ? 0 : blocks.size());
+    for (std::uint32_t w = 0; !judged.empty() && w < wires.size(); ++w)
+        if (wires.is_intact[w])
+            for (const auto i : {wires.block_a[w], wires.block_b[w]}) wires_of[i].push_back(w);
     double least = std::numeric_limits<double>::infinity();
-    for (const auto i : movable_) {
+    for (const auto i : judged) {
         const double inverse_root_mass = 1 / std::sqrt(blocks.mass(i));
         const Rotation& turn = blocks.rotation[i];
         const Rotation inverse_root_inertia =
@@ -80,8 +85,7 @@ double Simulation::stable_time_step() const {
                            inverse_root_inertia);
             }
         }
-        for (std::size_t w = 0; w < wires.size(); ++w) {
-            if (!wires.is_intact[w] || (wires.block_a[w] != i && wires.block_b[w] != i)) continue;
+        for (const auto w : wires_of[i]) {
             any = true;
             const Vector direction = wires.between_ends(blocks, w).normalized();
             const Vector arm = blocks.arm(i, wires.block_a[w] == i ? wires.sphere_a[w] : wires.sphere_b[w]);

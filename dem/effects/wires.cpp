@@ -60,7 +60,8 @@ void Wires::pull(Blocks& blocks, double t, const std::vector<std::uint32_t>& whi
             tension[k] = 0;
             continue;
         }
-        if (r > rest_length[k] + longest_stretch) {  // r > r_max: broken for good
+        // r > r_max by more than the rounding of r: broken for good. At r_max it holds.
+        if (r > rest_length[k] + longest_stretch + 1e-12 * r) {
             energy_of_broken += energy_at(k, r);
             is_intact[k] = 0;
             tension[k] = 0;

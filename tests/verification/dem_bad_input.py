@@ -160,6 +160,21 @@ refused_shape("of an inertia no body has", TWO + "inertia = [1.0e-6, 1.0e-6, 1.0
 refused_shape("with an unknown key", TWO + "element = 2.0\n", "mine.toml:3:", "did you mean 'elements'")
 refused_shape("with sections of a scene", TWO + "[wires]\npsi = 1.0\n", "mine.toml:3:", "wires", "does not belong in a shape")
 
+
+
+def one_line(what, text, *words):
+    r = run(text)
+    lines = r.message.strip().splitlines()
+    check.true(what, r.status == 2 and len(lines) == 1 and all(w in lines[0] for w in words), r.message.strip())
+
+
+TRIO = '[time]\nend = 0.1\nwindow = 0.1\n[dem]\ndry = true\ngravity = [0.0, 0.0, 0.0]\n' + "".join(
+    f'[[dem.block]]\nshape = "sphere"\nposition = [{0.02 * k}, 0.0, 1.0]\n' for k in range(3))
+# One mistake, one line: the other keys of the same table are known all the same.
+one_line("an unknown block is one mistake", TRIO + "[[wires.link]]\nblocks = [1, 7]\nspheres = [1, 1]\nrest_length = 0.02\n", "no block 7")
+one_line("a link to itself is one mistake", TRIO + "[[wires.link]]\nblocks = [2, 2]\nspheres = [1, 1]\nslack = 0.02\n", "linked to itself")
+one_line("rows without [dem.blocks] are one mistake", TRIO + "[[wires.along]]\nrows = [1]\nwires = 3\n", "[dem.blocks]")
+one_line("rows put back without [dem.blocks] too", TRIO + "[wires.put_back]\nrows = [1]\n", "put_back", "[dem.blocks]")
 refused("broken TOML", put("[[wires.link"), "scene.toml:17")
 
 far = tempfile.mkdtemp(prefix="tsunagi_flow_")
@@ -172,6 +187,10 @@ whole = tempfile.mkdtemp(prefix="tsunagi_flow_")
 write_flow(whole, standing_wave(0.05, 1.2, 0.3, 1.0), np.linspace(0.0, 1.0, 20), np.linspace(-0.3, 0.2, 11), 0.0, 0.2, 0.1, 0.02)
 refused("flow where all is dry", dem_keys("dry = true"), "scene.toml:6:", "dem.dry", "--flow", arguments=("--flow", whole))
 refused("flow and a current", dem_keys("current = [1.0, 0.0, 0.0]"), "scene.toml:6:", "dem.current", "--flow", arguments=("--flow", whole))
+late = tempfile.mkdtemp(prefix="tsunagi_flow_")
+write_flow(late, standing_wave(0.05, 1.2, 0.3, 1.0), np.linspace(0.0, 1.0, 20), np.linspace(-0.3, 0.2, 11), 0.3, 0.5, 0.1, 0.02)
+refused("flow that begins after the time asked for", GOOD, "would start at t = 0.3 s", "time.end = 0.2 s", arguments=("--flow", late))
+refused("check of the same", GOOD, "would start at t = 0.3 s", arguments=("--flow", late), verb="check")
 refused("flow folder that is not there", GOOD, "no such folder", arguments=("--flow", "/nonexistent"))
 
 other = tempfile.mkdtemp(prefix="tsunagi_flow_")

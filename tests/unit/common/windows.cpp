@@ -186,6 +186,7 @@ TEST(WindowReader, EndsWhereWindowsEnd) {
     EXPECT_FALSE(reader.receive(1));
     EXPECT_EQ(reader.index_at(0.5), 0);
     EXPECT_FALSE(reader.index_at(1.5));
+    EXPECT_FALSE(reader.index_at(1 - 1e-15));  // the end of a window but for the last bit
     EXPECT_EQ(reader.available_until(), 1);
 }
 
