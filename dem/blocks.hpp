@@ -30,6 +30,10 @@ struct Blocks {
 
     std::size_t size() const { return shape.size(); }
     const Shape& shape_of(std::size_t block) const { return shapes[static_cast<std::size_t>(shape[block])]; }
+    /// It has a velocity.
+    bool is_thrown(std::size_t block) const {
+        return velocity[block].norm() > 0 || angular_velocity[block].norm() > 0;
+    }
     /// Mass that moves: rho (s + C_M) A3 d^3 summed over a wholly wet block, kg.
     double mass(std::size_t block) const { return shape_of(block).mass * mass_ratio[block]; }
     /// Principal moments that turn, kg m^2.

@@ -11,18 +11,36 @@
 
 namespace dem {
 
-std::unique_ptr<Simulation> build_simulation(const Scene& scene, bool with_water) {
+namespace {
+
+std::unique_ptr<Simulation> build_with(Blocks blocks, const Scene& scene, bool with_water) {
     auto simulation = std::make_unique<Simulation>(
-        scene.placed, scene.surroundings,
+        std::move(blocks), scene.surroundings,
         make_contact_model(scene.contact, scene.material, scene.element.diameter, scene.reference_overlap),
         scene.gravity, scene.step);
     if (with_water && scene.effects.fluid_force)
-        simulation->add_water({.water = scene.water,
-                               .element = scene.element,
-                               .gravity = scene.gravity,
-                               .displaced_volume = scene.displaced_volume},
+        simulation->add_water({.water = scene.water, .element = scene.element, .gravity = scene.gravity},
                               scene.uniform_water);
     if (scene.effects.sleeping) simulation->add_sleeping(scene.sleep);
+    return simulation;
+}
+
+}  // namespace
+
+std::unique_ptr<Simulation> build_simulation(const Scene& scene, bool with_water) {
+    return build_with(scene.placed, scene, with_water);
+}
+
+std::unique_ptr<Simulation> build_packing(const Scene& scene) {
+    Blocks blocks = scene.placed;
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        if (!blocks.is_thrown(i)) continue;
+        blocks.is_fixed[i] = 1;
+        blocks.place(i, blocks.position[i], blocks.orientation[i], Vector::Zero(), Vector::Zero());
+    }
+    auto simulation = build_with(std::move(blocks), scene, true);
+    if (simulation->water() != nullptr)
+        simulation->water()->set_motion(UniformWater{.element_diameter = scene.element.diameter});
     return simulation;
 }
 
@@ -47,6 +65,15 @@ void settle(Simulation& simulation, const PackingRules& rules, const std::string
     throw common::RunError(
         fmt::format("{}: blocks still move after {} s; raise dem.packing.longest or dem.packing.speed", when,
                     rules.longest));
+}
+
+void throw_held(Blocks& blocks, const Scene& scene) {
+    const Blocks& placed = scene.placed;
+    blocks.is_fixed = placed.is_fixed;
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+        if (placed.is_thrown(i))
+            blocks.place(i, blocks.position[i], blocks.orientation[i], placed.velocity[i],
+                         placed.angular_velocity[i]);
 }
 
 PackedPoses poses_of(const Blocks& blocks) {
@@ -105,6 +132,8 @@ Snapshot snapshot_from_window(const std::filesystem::path& from, const Scene& sc
     snapshot.packed.position = vectors_from(geometry.at("/packed/position"));
     snapshot.packed.orientation = quaternions_from(geometry.at("/packed/orientation"));
     const std::size_t count = scene.placed.size();
+    for (std::size_t i = 0; i < std::min(count, snapshot.packed.orientation.size()); ++i)
+        snapshot.packed.orientation[i] *= scene.placed.shape_of(i).body_from_file.conjugate();
     const auto position = vectors_from(window.at("/blocks/position"));
     const auto orientation = quaternions_from(window.at("/blocks/orientation"));
     const auto velocity = vectors_from(window.at("/blocks/velocity"));
@@ -178,6 +207,20 @@ void restore(Simulation& simulation, const Snapshot& snapshot) {
 
 namespace {
 
+/// Number of each wire by its two ends.
+std::map<WirePlace, std::size_t> places_of(const Wires& wires) {
+    std::map<WirePlace, std::size_t> places;
+    for (std::size_t k = 0; k < wires.size(); ++k)
+        places[in_order({wires.block_a[k], wires.sphere_a[k], wires.block_b[k], wires.sphere_b[k]})] = k;
+    return places;
+}
+
+bool is_put_back(const Scene& scene, const WirePlace& place) {
+    const auto& chosen = scene.wires.put_back;
+    return std::binary_search(chosen.begin(), chosen.end(), place.block_a) ||
+           std::binary_search(chosen.begin(), chosen.end(), place.block_b);
+}
+
 /// The wires of the layout where blocks stand now; with `earlier`, those it already has between the same
 /// spheres keep rest length and damage, unless one of their blocks was put back. `only_kept`: no others.
 Wires layout_wires(const Blocks& blocks, const Scene& scene, const Wires* earlier, bool only_kept) {
@@ -186,20 +229,13 @@ Wires layout_wires(const Blocks& blocks, const Scene& scene, const Wires* earlie
     wires.longest_stretch = scene.effects.wire_breaking ? scene.wires.psi * scene.element.diameter
                                                         : std::numeric_limits<double>::infinity();
     std::map<WirePlace, std::size_t> known;
-    if (earlier != nullptr)
-        for (std::size_t k = 0; k < earlier->size(); ++k)
-            known[in_order(
-                {earlier->block_a[k], earlier->sphere_a[k], earlier->block_b[k], earlier->sphere_b[k]})] = k;
-    const auto was_put_back = [&](std::uint32_t block) {
-        return std::binary_search(scene.wires.put_back.begin(), scene.wires.put_back.end(), block);
-    };
+    if (earlier != nullptr) known = places_of(*earlier);
     const double period = scene.surroundings.period;
     for (const auto& link : scene.wires.links)
         for (const auto& place : wires_of(scene.placed, link, period)) {
             const double stiffness = link.stiffness.value_or(scene.wires.stiffness);
             const auto old = known.find(in_order(place));
-            const bool is_kept =
-                old != known.end() && !was_put_back(place.block_a) && !was_put_back(place.block_b);
+            const bool is_kept = old != known.end() && !is_put_back(scene, place);
             if (only_kept && !is_kept) continue;
             const double image = nearest_image(scene.placed, place.block_a, place.block_b, period);
             const double mounted = link.rest_length.value_or(distance(blocks, place, image) + link.slack);
@@ -217,6 +253,26 @@ Wires layout_wires(const Blocks& blocks, const Scene& scene, const Wires* earlie
 
 void mount_layout(Simulation& simulation, const Scene& scene, const Wires* earlier) {
     if (scene.effects.wires) simulation.mount_wires(layout_wires(simulation.blocks, scene, earlier, false));
+}
+
+void require_kept_rest_lengths(const Scene& scene, const Wires& earlier) {
+    const auto known = places_of(earlier);
+    for (const auto& link : scene.wires.links) {
+        if (!link.rest_length) continue;
+        for (const auto& place : wires_of(scene.placed, link, scene.surroundings.period)) {
+            const auto old = known.find(in_order(place));
+            if (old == known.end() || is_put_back(scene, place)) continue;
+            const double kept = earlier.rest_length[old->second];
+            // As stored, but for a last digit that someone copied.
+            if (std::abs(*link.rest_length - kept) > 1e-6 * kept)
+                throw common::InputError(
+                    fmt::format("wires: the layout gives the wire between blocks {} and {} a rest_length of "
+                                "{:.6g} m, but "
+                                "it goes on from the earlier run with {:.6g} m; leave rest_length out, or "
+                                "put a block back",
+                                place.block_a + 1, place.block_b + 1, *link.rest_length, kept));
+        }
+    }
 }
 
 Wires kept_wires(const Blocks& blocks, const Scene& scene, const Wires& earlier) {

@@ -14,6 +14,11 @@ namespace dem {
 /// Blocks at their placed poses, with the water the scene gives (uniform, until a flow grid takes its place)
 /// and, unless off, sleeping. No wires yet.
 std::unique_ptr<Simulation> build_simulation(const Scene& scene, bool with_water);
+/// The scene's blocks as packing begins, in still water: those that start with a velocity do not take part,
+/// they are held where the scene places them until the run starts.
+std::unique_ptr<Simulation> build_packing(const Scene& scene);
+/// Blocks that were held are free, with the scene's velocity.
+void throw_held(Blocks& blocks, const Scene& scene);
 
 /// Lets the blocks settle in still water. `progress` is called now and then with the time.
 /// Throws common::RunError, beginning with `when`, when they do not come to rest in time.
@@ -26,6 +31,9 @@ void take_over(Simulation& simulation, const PackedPoses& packed, const std::vec
 /// Mounts the layout. Wires that `earlier` (may be null) already has between the same spheres keep rest
 /// length and damage, unless one of their blocks was put back; new ones take the present distance.
 void mount_layout(Simulation& simulation, const Scene& scene, const Wires* earlier);
+
+/// Throws common::InputError where the layout gives another rest length than a wire has that is kept.
+void require_kept_rest_lengths(const Scene& scene, const Wires& earlier);
 
 /// Of the layout, the wires that are kept from an earlier run.
 Wires kept_wires(const Blocks& blocks, const Scene& scene, const Wires& earlier);

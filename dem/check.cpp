@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "common/check_report.hpp"
+#include "common/errors.hpp"
+#include "common/run_record.hpp"
 #include "dem/build_simulation.hpp"
 #include "dem/run.hpp"
 #include "dem/step_trial.hpp"
@@ -14,42 +16,87 @@ namespace dem {
 
 namespace {
 
-double seconds_of(const auto& work) {
-    const auto begun = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-}
-
 /// What one step of the scene has to do, and how long it takes here.
 struct StepWork {
     std::size_t contacts = 0, wires = 0;
-    double seconds = 0;
+    double seconds = 0;      ///< 0: nothing could be timed
+    std::string stopped_by;  ///< why the calibration ended early; empty: it did not
 };
 
-/// The scene's own blocks once they have come down, with its wires: a tenth of a second of packing, then a
-/// timed stretch.
+/// The scene's own blocks once they have come down, with its wires: a short stretch of packing or, without
+/// one, of the run itself, then a timed stretch. Never longer than the run.
 StepWork work_of_a_step(const Scene& scene) {
-    const auto simulation = build_simulation(scene, true);
+    const bool packs = scene.packing.settle;
+    const auto simulation = packs ? build_packing(scene) : build_simulation(scene, true);
+    const double longest = packs ? scene.packing.longest : scene.time.end;
     simulation->start(0);
+    StepWork work;
+    std::uint64_t before = 0;
+    double spent = 0;
     // In pieces, so that steps of any length leave no one waiting.
     const double piece = std::min(0.01, 50 * scene.step.time_step);
     const auto advance_until = [&](double end, double most_seconds) {
-        double spent = 0;
-        while (spent < most_seconds && simulation->time() < end)
-            spent += seconds_of([&] { simulation->advance(simulation->time() + piece); });
-        return spent;
+        spent = 0;
+        while (spent < most_seconds && simulation->time() < end) {
+            common::PhaseTimer timer(spent);
+            simulation->advance(std::min(simulation->time() + piece, end));
+        }
     };
-    // Blocks are placed a tenth of an element above the mound; they are down after sqrt(2 h / g) = 0.02 s.
-    advance_until(0.05, 2);
-    mount_layout(*simulation, scene, nullptr);
-    const auto before = simulation->steps();
-    const double spent = advance_until(simulation->time() + 2, 0.2);
-    StepWork work;
+    try {
+        // Blocks are placed a tenth of an element above the mound; they are down after sqrt(2 h / g) = 0.02
+        // s.
+        advance_until(std::min(0.05, 0.5 * longest), 2);
+        mount_layout(*simulation, scene, nullptr);
+        before = simulation->steps();
+        advance_until(std::min(simulation->time() + 2, longest), 0.2);
+    } catch (const common::RunError& error) {
+        work.stopped_by = error.what();  // where the run would stop as well, the forecast says so
+    }
     work.wires = simulation->wires.size();
     work.contacts = simulation->pair_list().contact_count();
     // A scene whose blocks all fall asleep at once has no steps to time.
-    work.seconds = spent / std::max(1.0, static_cast<double>(simulation->steps() - before));
+    if (spent > 0) work.seconds = spent / std::max(1.0, static_cast<double>(simulation->steps() - before));
     return work;
+}
+
+/// What comes before the first step of the run.
+struct PackingWork {
+    std::string text;
+    double seconds = 0;
+};
+
+/// The scene's own packing, as far as it comes in a second of computing.
+PackingWork work_of_packing(const Scene& scene, const StepWork& step) {
+    constexpr double patience = 1;  // s
+    struct OutOfPatience {};
+    if (!scene.packing.settle) return {"none", 0};
+    const auto simulation = build_packing(scene);
+    double spent = 0;
+    const auto begun = std::chrono::steady_clock::now();
+    try {
+        settle(*simulation, scene.packing, "packing", [&](double) {
+            spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+            if (spent > patience) throw OutOfPatience{};
+        });
+    } catch (const OutOfPatience&) {
+        const double steps = std::ceil(scene.packing.longest / scene.step.time_step);
+        return {fmt::format("at most {:.3g} s, {:.0f} steps", scene.packing.longest, steps),
+                step.seconds * steps};
+    } catch (const common::RunError& error) {
+        return {fmt::format("fails: {}", error.what()), spent};
+    }
+    return {fmt::format("blocks settle in {:.2f} s, {} steps", simulation->time(), simulation->steps()),
+            spent};
+}
+
+std::string run_time_line(const StepWork& work, double seconds) {
+    const std::string stopped =
+        work.stopped_by.empty() ? "" : "; the calibration stopped: " + work.stopped_by;
+    if (work.seconds == 0) return "unknown, no step could be timed" + stopped;
+    return fmt::format(
+        "at most about {} on this machine, with packing ({:.3g} ms a step with all blocks awake; "
+        "sleeping saves more){}",
+        common::run_time_text(seconds), 1e3 * work.seconds, stopped);
 }
 
 }  // namespace
@@ -68,6 +115,8 @@ void check(const common::StageCommand& command, const common::SceneFile& file, c
     const double steps = std::ceil(scene.time.end / scene.step.time_step);
     const double limit = require_stable_step(file, scene);
     const StepWork work = work_of_a_step(scene);
+    const PackingWork packing =
+        command.from.empty() ? work_of_packing(scene, work) : PackingWork{"stored (--from)", 0};
     common::print_check_report(
         scene.effects.records,
         {{"blocks", fmt::format("{}, {} free to move; {} spheres", scene.placed.size(), moving, spheres)},
@@ -79,9 +128,8 @@ void check(const common::StageCommand& command, const common::SceneFile& file, c
                                scene.step.time_step, scene.time_step_is_chosen ? "chosen" : "given",
                                std::isfinite(limit) ? fmt::format("first contacts allow {:.2g} s", limit)
                                                     : std::string("nothing touches at first"))},
-         {"run time", fmt::format("at most about {} on this machine ({:.3g} ms a step with all blocks awake; "
-                                  "sleeping saves more)",
-                                  common::run_time_text(work.seconds * steps), 1e3 * work.seconds)},
+         {"packing", packing.text},
+         {"run time", run_time_line(work, work.seconds * steps + packing.seconds)},
          {"error",
           fmt::format("energy balance about {:.1g} of what contacts dissipate (first order in the step)",
                       0.01 * scene.step.time_step / 1e-4 * std::sqrt(scene.material.young_modulus / 1e7))}});

@@ -20,7 +20,7 @@ std::vector<common::ExpectedDataset> expected_flow() {
             {"/flow/wet", "-", {"nt", "nz", "nx"}}};
 }
 
-FlowGrid flow_grid_of(const common::Window& window, bool still_outside) {
+FlowGrid flow_grid_of(const common::Window& window, bool still_outside, const std::string& path) {
     FlowHistory history;
     history.time = window.at("/flow/time").as_double();
     history.x = window.at("/flow/x").as_double();
@@ -28,6 +28,10 @@ FlowGrid flow_grid_of(const common::Window& window, bool still_outside) {
     const auto velocity = window.at("/flow/velocity").as_double();
     const auto acceleration = window.at("/flow/acceleration").as_double();
     const auto wet = window.at("/flow/wet").as_double();
+    for (std::size_t i = 0; i < wet.size(); ++i)
+        if (!(wet[i] >= 0 && wet[i] <= 1))
+            throw common::InputError(
+                fmt::format("{}: /flow/wet is {:.6g} at element {}; expected 0 to 1", path, wet[i], i));
     history.values.resize(wet.size() * FlowGrid::fields);
     for (std::size_t i = 0; i < wet.size(); ++i) {
         float* out = history.values.data() + i * FlowGrid::fields;
@@ -40,8 +44,7 @@ FlowGrid flow_grid_of(const common::Window& window, bool still_outside) {
     try {
         return FlowGrid(std::move(history), still_outside);
     } catch (const std::invalid_argument& error) {
-        throw common::InputError(
-            fmt::format("window {} of {}: /flow/x, /flow/z: {}", window.index, window.stage, error.what()));
+        throw common::InputError(fmt::format("{}: /flow/x, /flow/z: {}", path, error.what()));
     }
 }
 

@@ -1,8 +1,11 @@
 #include "dem/loads.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "common/errors.hpp"
 #include "dem/prefetch.hpp"
 
 namespace dem {
@@ -25,14 +28,21 @@ FluidLoads::FluidLoads(const Blocks& blocks, FluidProperties properties,
 
 void FluidLoads::sample(Blocks& blocks, double t, double hold) {
     // The middle of the time the sample is held: second order in the interval.
-    if (auto* grid = std::get_if<FlowGrid>(&motion_)) grid->set_time(t + 0.5 * hold);
+    std::visit([&](auto& water) { water.set_time(t + 0.5 * hold); }, motion_);
     for (std::size_t i = 0; i < blocks.size(); ++i)
         if (!blocks.is_fixed[i] && !stays_as_sampled(blocks, i)) sample_block(blocks, i, t);
 }
 
 void FluidLoads::sample_block(Blocks& blocks, std::size_t i, double t) {
-    loads_[i] = std::visit(
-        [&](const auto& water) { return sample_fluid_load(blocks, i, water, properties_); }, motion_);
+    try {
+        loads_[i] = std::visit(
+            [&](const auto& water) { return sample_fluid_load(blocks, i, water, properties_); }, motion_);
+    } catch (const std::out_of_range& outside) {
+        throw common::RunError(
+            fmt::format("t = {:.5f} s: block {} leaves the water that is known: {}; enlarge cmps.flow or set "
+                        "dem.flow_outside = \"still\"",
+                        t, i + 1, outside.what()));
+    }
     if (waves_reach_blocks < 0 && loads_[i].water_speed > wave_speed) waves_reach_blocks = t;
     const double ratio = mass_ratio(blocks.shape_of(i), loads_[i].wet, properties_);
     if (ratio != blocks.mass_ratio[i]) work += blocks.set_mass_ratio(i, ratio);
@@ -63,7 +73,8 @@ bool FluidLoads::stays_as_sampled(const Blocks& blocks, std::size_t i) {
     Resting& resting = resting_[i];
     if (is_awake_[i] || !resting.is_known) return false;
     const auto* grid = std::get_if<FlowGrid>(&motion_);
-    if (grid == nullptr || resting.interval == grid->interval()) return true;
+    if (grid == nullptr) return std::get<UniformWater>(motion_).is_steady();
+    if (resting.interval == grid->interval()) return true;
     const FlowGrid::Change change = grid->largest_change(resting.points, resting.values);
     // What follows from the sample besides the load must not differ either.
     if (change.wet || (waves_reach_blocks < 0 && change.speed > wave_speed)) return false;

@@ -11,6 +11,12 @@
 
 namespace dem {
 
+namespace {
+
+const std::string warning_key = "warning ";  // of state.h5, before the name of the warning
+
+}  // namespace
+
 Report::Report(const std::filesystem::path& folder, const common::SceneFile& file, const Scene& scene,
                const std::string& scene_digest, const std::string& input_digest)
     : record_(folder, "dem"), scene_(scene), smallest_limit_(std::numeric_limits<double>::infinity()) {
@@ -122,8 +128,7 @@ void Report::say(const std::string& name, const std::string& message) {
 }
 
 void Report::keep_warning(const std::string& name, const std::string& message) {
-    warning_name_ = name;
-    warning_ = message;
+    warnings_[name] = message;
     record_.set_note(name, message);
 }
 
@@ -139,10 +144,7 @@ void Report::began_calm(const CalmRecord& record) {
 }
 
 void Report::store(common::DataFile& state) const {
-    if (!warning_.empty()) {
-        state.attributes["warning_name"] = warning_name_;
-        state.attributes["warning"] = warning_;
-    }
+    for (const auto& [name, message] : warnings_) state.attributes[warning_key + name] = message;
     if (calm_)
         state.datasets["/calm"] =
             common::real64("-, m, m, m, m, s", {6},
@@ -169,7 +171,8 @@ void Report::restore(const common::DataFile& state) {
                      .gross_water_work = state.number("first_gross_water_work")};
     smallest_limit_ = state.number("smallest_limit");
     past_limit_ = static_cast<int>(state.integer("past_limit"));
-    if (state.attributes.contains("warning")) keep_warning(state.text("warning_name"), state.text("warning"));
+    for (const auto& [key, value] : state.attributes)
+        if (key.starts_with(warning_key)) keep_warning(key.substr(warning_key.size()), state.text(key));
     if (state.has("/calm")) {
         const auto& kept = state.at("/calm").doubles();
         began_calm({static_cast<std::size_t>(kept.at(0)), kept.at(1), kept.at(2), kept.at(3), kept.at(4),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 
 #include "common/run_record.hpp"
 #include "dem/scene.hpp"
@@ -40,7 +41,7 @@ class Report {
     common::RunRecord record_;
     const Scene& scene_;
     std::optional<CalmRecord> calm_;
-    std::string warning_name_, warning_;
+    std::map<std::string, std::string> warnings_;
     EnergyBudget first_energy_;
     double smallest_limit_, stepping_seconds_ = 0;
     int past_limit_ = 0;                   ///< samples in a row

@@ -57,7 +57,9 @@ class FlowSource {
     void require_cover(const Blocks& blocks) {
         if (has_flow()) require_same_mound(folder_, scene_.mound, blocks);
         if (has_flow() && !scene_.still_outside)
-            dem::require_cover(flow_grid_of(reader_->first(), false), blocks, folder_.string());
+            dem::require_cover(
+                flow_grid_of(reader_->first(), false, reader_->path_of(reader_->first().index).string()),
+                blocks, folder_.string());
     }
 
     struct Span {
@@ -75,7 +77,8 @@ class FlowSource {
         const double begin = index == 0 ? start_ : window->t_begin,
                      end = std::min(window->t_end, scene_.time.end);
         if (end <= begin + tolerance) return {};
-        return Span{begin, end, flow_grid_of(*window, scene_.still_outside)};
+        return Span{begin, end,
+                    flow_grid_of(*window, scene_.still_outside, reader_->path_of(first_ + index).string())};
     }
     /// Throws RunError when a flow that was followed ended before the time asked for.
     void require_end(double t) const {
@@ -173,6 +176,19 @@ common::Window advance(Simulation& simulation, const PackedPoses& packed, const 
     return output.take(index, simulation);
 }
 
+/// Wires that are longer than they may be before anything has moved.
+void report_breaks(const Wires& mounted, const Wires& now, Report& report) {
+    const std::size_t broken = mounted.intact_count() - now.intact_count();
+    if (broken == 0) return;
+    std::size_t first = 0;
+    while (mounted.is_intact[first] == now.is_intact[first]) ++first;
+    report.warn(
+        "wires.broken_at_start",
+        fmt::format("{} of {} wires are longer than r0 + psi d where they are mounted and break at once; "
+                    "the first joins blocks {} and {}",
+                    broken, now.size(), now.block_a[first] + 1, now.block_b[first] + 1));
+}
+
 }  // namespace
 
 void require_input(const common::StageCommand& command, const Scene& scene) {
@@ -189,9 +205,7 @@ void pack(const common::StageCommand& command, const common::SceneFile& file, co
     common::Progress progress("dem pack", 0, scene.packing.longest, command.quiet);
     Report report(command.out, file, scene, digest, "");
     try {
-        const auto simulation = build_simulation(scene, true);
-        if (simulation->water() != nullptr)
-            simulation->water()->set_motion(UniformWater{.element_diameter = scene.element.diameter});
+        const auto simulation = build_packing(scene);
         WindowOutput output;
         const PackedPoses placed = poses_of(simulation->blocks);
         simulation->start(0);
@@ -201,6 +215,7 @@ void pack(const common::StageCommand& command, const common::SceneFile& file, co
             output.record(*simulation, placed);
             progress.update(t, "packing");
         });
+        throw_held(simulation->blocks, scene);
         const PackedPoses packed = poses_of(simulation->blocks);
         folder.write_geometry(
             geometry_of(*simulation, packed, placement_digest(scene.placed, scene.surroundings)));
@@ -259,7 +274,9 @@ void run(const common::StageCommand& command, const common::SceneFile& file, con
             flow.require_cover(start.simulation->blocks);
             if (span && span->grid && start.simulation->water() != nullptr)
                 start.simulation->water()->set_motion(*span->grid);
+            const Wires mounted = start.simulation->wires;
             start.simulation->blocks_were_placed(begin);
+            report_breaks(mounted, start.simulation->wires, report);
             report.set_first_energy(start.simulation->energy());
         }
         Simulation& simulation = *start.simulation;

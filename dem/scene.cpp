@@ -121,9 +121,10 @@ void judge_stiffness(const Section& dem, const Scene& scene) {
 void read_water(const Section& dem, Scene& scene, bool& dry) {
     dry = dem.boolean("dry", "no water at all", false);
     scene.uniform_water.velocity =
-        read_vector(dem, "current", "m/s", "uniform water velocity without a flow", Vector::Zero());
-    scene.uniform_water.acceleration = read_vector(
-        dem, "current_acceleration", "m/s2", "uniform water acceleration without a flow", Vector::Zero());
+        read_vector(dem, "current", "m/s", "uniform water velocity at t = 0, without a flow", Vector::Zero());
+    scene.uniform_water.acceleration =
+        read_vector(dem, "current_acceleration", "m/s2",
+                    "of that water: it moves with current + current_acceleration t", Vector::Zero());
     for (const char* key : {"current", "current_acceleration"})
         if (dry && dem.has(key)) dem.problem(key, "dem.dry is true: there is no water to flow");
     scene.uniform_water.element_diameter = scene.element.diameter;
@@ -147,14 +148,14 @@ void judge_settling(const SceneFile& file, bool dry, const Scene& scene) {
     if (dry || !scene.packing.settle || scene.gravity.z() >= 0 || file.has_problems()) return;
     for (std::size_t i = 0; i < scene.placed.size(); ++i) {
         const Shape& shape = scene.placed.shape_of(i);
-        const double lifted = scene.water.density *
-                              (scene.displaced_volume > 0 ? scene.displaced_volume : shape.displaced_volume);
-        if (scene.placed.is_fixed[i] || shape.mass > lifted) continue;
+        const double lifted = scene.water.density * shape.displaced_volume;
+        if (scene.placed.is_fixed[i] || scene.placed.is_thrown(i) || shape.mass > lifted) continue;
         const std::string message = fmt::format(
             "block {} weighs {:.3g} kg and displaces {:.3g} kg of water: it floats and never settles", i + 1,
             shape.mass, lifted);
-        if (scene.displaced_volume > 0)
-            file.section("dem.blocks").problem("displaced_volume", message);
+        const Section armour = file.section("dem.blocks");
+        if (scene.placed.shape[i] == scene.placed.shape[0] && armour.has("displaced_volume"))
+            armour.problem("displaced_volume", message);
         else
             file.section("dem").problem("density_ratio", message);
         return;

@@ -50,7 +50,6 @@ struct Scene {
     Water water;
     Material material;
     Vector gravity{0, 0, -9.81};
-    double displaced_volume = 0;  ///< of a block, m^3; 0: that of its elements
     ContactLaw contact = ContactLaw::hertz;
     double reference_overlap = 0;  ///< m
     StepRules step;

@@ -30,11 +30,14 @@ class ShapeBook {
  public:
     ShapeBook(const SceneFile& file, Scene& scene) : file_(file), scene_(scene) {}
 
-    /// Index of the shape `section.shape` names.
+    /// Index of the shape `section.shape` names, as it displaces water there.
     int read(const Section& section) {
         const std::string name =
             section.text("shape", "built-in shape or TOML file with [dem.shape]", std::string("beehive96"));
-        if (const auto known = index_.find(name); known != index_.end()) return known->second;
+        const double displaced =
+            section.number("displaced_volume", "m3", "water displaced by one block; 0: by its elements",
+                           Range::not_negative(), 0.0);
+        if (const auto known = index_.find({name, displaced}); known != index_.end()) return known->second;
         try {
             const ShapeDescription description = find_shape(name, file_.path().parent_path());
             scene_.placed.shapes.push_back(make_shape(description, scene_.element, scene_.water.density));
@@ -49,13 +52,18 @@ class ShapeBook {
             scene_.placed.shapes.push_back(
                 make_shape(find_shape("beehive96", "."), scene_.element, scene_.water.density));
         }
-        return index_[name] = static_cast<int>(scene_.placed.shapes.size()) - 1;
+        if (displaced > 0) {
+            Shape& shape = scene_.placed.shapes.back();
+            shape.displaced_volume = displaced;
+            shape.volume_per_sphere = displaced / static_cast<double>(shape.spheres.size());
+        }
+        return index_[{name, displaced}] = static_cast<int>(scene_.placed.shapes.size()) - 1;
     }
 
  private:
     const SceneFile& file_;
     Scene& scene_;
-    std::map<std::string, int> index_;
+    std::map<std::pair<std::string, double>, int> index_;
 };
 
 void judge_speeds(const Section& entry, const Scene& scene, int shape, bool fixed, const Vector& velocity,
@@ -217,9 +225,6 @@ void place_armour(const Section& dem, Scene& scene, int shape, const FixedSphere
                   : 0;
     const auto layers =
         static_cast<std::size_t>(blocks.integer("layers", "on top of each other", Range::between(1, 100), 1));
-    scene.displaced_volume =
-        blocks.number("displaced_volume", "m3", "water displaced by one block; 0: by its elements",
-                      Range::not_negative(), 0.0);
     const double count = static_cast<double>(scene.rows + static_cast<std::size_t>(behind)) *
                          static_cast<double>(scene.columns * layers);
     constexpr double most = 1e6;

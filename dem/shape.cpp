@@ -52,6 +52,7 @@ Shape make_shape(const ShapeDescription& description, const Element& element, do
     const double elements = description.elements > 0 ? description.elements : static_cast<double>(count);
     shape.elements_per_sphere = elements / static_cast<double>(count);
     shape.displaced_volume = elements * element.volume();
+    shape.volume_per_sphere = shape.elements_per_sphere * element.volume();
     shape.mass = description.mass.value_or(water_density * element.density_ratio * shape.displaced_volume);
     if (shape.mass <= 0) throw std::invalid_argument("the mass of a shape must be positive");
 

@@ -33,6 +33,7 @@ struct Shape {
     Vector inertia;               ///< dry, principal, kg m^2
     Vector inverse_inertia;       ///< reciprocals of the above
     double displaced_volume;      ///< water displaced by the whole shape, m^3
+    double volume_per_sphere;     ///< the share of each sphere in it, m^3
     Quaternion body_from_file;    ///< turns the file's axes into the body frame
     Vector low, high;             ///< box around the sphere centres in the body frame, m
     double radius;                ///< farthest point of the shape from its centre of mass, m
@@ -42,7 +43,7 @@ struct Shape {
 
 /// Mass and inertia are those of eq. (8) without the added mass: each sphere weighs rho s A3 d^3 times the
 /// elements it stands for, and turns with 2/5 m r^2 about its own centre. Throws std::invalid_argument (no
-/// spheres; twice the same sphere; mass or inertia not positive).
+/// spheres; twice the same sphere; mass or inertia not positive; moments that no body has).
 Shape make_shape(const ShapeDescription& description, const Element& element, double water_density);
 
 }  // namespace dem

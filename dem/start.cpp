@@ -57,9 +57,10 @@ std::pair<double, double> distances(const Blocks& blocks, const PackedPoses& pac
 Start packed_start(const Scene& scene, common::Progress& progress) {
     Start start{.simulation = build_simulation(scene, true), .packed = {}};
     if (scene.packing.settle) {
-        const auto packing = in_still_water(scene, scene.placed, {}, {});
+        const auto packing = build_packing(scene);
         settle(*packing, scene.packing, "packing", [&](double t) { progress.update(t, "packing"); });
         take_over(*start.simulation, poses_of(packing->blocks), packing->memory().pairs);
+        throw_held(start.simulation->blocks, scene);
     }
     start.packed = poses_of(start.simulation->blocks);
     return start;
@@ -71,9 +72,11 @@ Start start_from(const std::filesystem::path& from, const Scene& scene) {
     start.without_springs = snapshot.without_springs;
     if (snapshot.is_packing) {
         take_over(*start.simulation, snapshot.packed, snapshot.memory.pairs);
+        throw_held(start.simulation->blocks, scene);
         start.packed = poses_of(start.simulation->blocks);
         return start;
     }
+    require_kept_rest_lengths(scene, snapshot.wires);
     start.t = snapshot.t;
     start.earlier_wires = std::move(snapshot.wires);
     begin_books(snapshot.memory, scene.restart_clock.has_value());

@@ -25,7 +25,7 @@ double most_limit(Simulation& simulation, double begin, double end) {
     try {
         while (simulation.time() < end - 0.5 * interval) {
             simulation.advance(simulation.time() + interval);
-            const double limit = simulation.stable_time_step();
+            const double limit = simulation.stable_time_step(true);
             if (simulation.time() > begin) most = std::max(most, limit);
             past = simulation.rules().time_step > time_step_margin * limit ? past + 1 : 0;
             if (past >= 4) return limit;
@@ -33,7 +33,7 @@ double most_limit(Simulation& simulation, double begin, double end) {
     } catch (const common::RunError&) {
         // Too long a step, or too hard a hit for any: the limit of that moment tells, and of a hit the run
         // does.
-        return simulation.stable_time_step();
+        return simulation.stable_time_step(true);
     }
     return most;
 }
@@ -46,12 +46,12 @@ double stable_step_after_landing(const Scene& scene) {
     Scene trial = scene;
     trial.step.time_step = std::clamp(scene.step.time_step, scene.usual_time_step / 8, scene.usual_time_step);
     if (end > most_steps * trial.step.time_step) return std::numeric_limits<double>::infinity();
-    const auto simulation = build_simulation(trial, true);
+    const auto simulation = trial.packing.settle ? build_packing(trial) : build_simulation(trial, true);
     simulation->start(0);
     double limit = most_limit(*simulation, landed, end);
     if (scene.effects.wires) {
         mount_layout(*simulation, scene, nullptr);
-        limit = std::min(limit, simulation->stable_time_step());
+        limit = std::min(limit, simulation->stable_time_step(true));
     }
     const double step = scene.step.time_step;
     const bool is_usual = step <= trial.step.time_step && step < 0.5 * limit;

@@ -19,16 +19,21 @@ struct WaterSample {
     double wet;           ///< 0 (air) .. 1 (water)
 };
 
-/// Water below z = 0 that moves as one: at rest, or a current given by the scene.
+/// Water below z = 0 that moves as one: at rest, or a current given by the scene. What is uniform has
+/// Du/Dt = du/dt: u = velocity + acceleration t.
 struct UniformWater {
-    Vector velocity{0, 0, 0};
+    Vector velocity{0, 0, 0};  ///< at t = 0, m/s
     Vector acceleration{0, 0, 0};
     double element_diameter = 0.008;  ///< over which the surface is blended, m
     bool surface = true;              ///< false: water everywhere
+    double time = 0;                  ///< s
+
+    void set_time(double t) { time = t; }
+    bool is_steady() const { return acceleration.isZero(0); }
 
     WaterSample at(const Vector& point) const {
         const double wet = surface ? std::clamp(0.5 - point.z() / element_diameter, 0.0, 1.0) : 1.0;
-        return {velocity, acceleration, wet};
+        return {velocity + time * acceleration, acceleration, wet};
     }
 };
 

@@ -104,8 +104,7 @@ common::DataFile geometry_of(const Simulation& simulation, const PackedPoses& pa
     file.datasets["/blocks/shape"] = integer32("-", {nb}, std::move(shape));
     file.datasets["/blocks/fixed"] = integer32("-", {nb}, std::move(fixed));
     file.datasets["/packed/position"] = real64("m", {nb, 3}, flat(packed.position));
-    file.datasets["/packed/orientation"] = real64("-", {nb, 4}, flat(packed.orientation));
-    file.datasets["/packed/file_orientation"] = real64("-", {nb, 4}, std::move(orientation));
+    file.datasets["/packed/orientation"] = real64("-", {nb, 4}, std::move(orientation));
     const auto& fixed_spheres = simulation.surroundings().fixed_spheres;
     file.datasets["/mound/spheres"] =
         real32("m", {fixed_spheres.size(), 3}, std::span<const double>(flat(fixed_spheres.centres())));

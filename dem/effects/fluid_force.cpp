@@ -13,12 +13,9 @@ struct SphereFactors {
 
 SphereFactors factors_of(const Shape& shape, const FluidProperties& properties) {
     const Water& water = properties.water;
-    const double volume = properties.displaced_volume > 0
-                              ? properties.displaced_volume / static_cast<double>(shape.spheres.size())
-                              : properties.element.volume() * shape.elements_per_sphere;
-    return {.volume = volume,
+    return {.volume = shape.volume_per_sphere,
             .drag = 0.5 * water.density * properties.element.section() * shape.elements_per_sphere,
-            .inertia = water.density * (1 + water.added_mass_coefficient) * volume,
+            .inertia = water.density * (1 + water.added_mass_coefficient) * shape.volume_per_sphere,
             .viscous = 24 * water.viscosity / properties.element.diameter};
 }
 
@@ -74,9 +71,8 @@ double largest_load_change(const Shape& shape, const FlowGrid::Change& change,
 }
 
 double mass_ratio(const Shape& shape, double wet, const FluidProperties& properties) {
-    const double volume =
-        properties.displaced_volume > 0 ? properties.displaced_volume : shape.displaced_volume;
-    return 1 + properties.water.density * properties.water.added_mass_coefficient * volume * wet / shape.mass;
+    return 1 + properties.water.density * properties.water.added_mass_coefficient * shape.displaced_volume *
+                   wet / shape.mass;
 }
 
 }  // namespace dem

@@ -33,7 +33,6 @@ struct FluidProperties {
     Water water;
     Element element;
     Vector gravity{0, 0, -9.81};
-    double displaced_volume = 0;  ///< of a block, m^3; 0: that of its elements
 };
 
 /// Samples all spheres of a block in `motion` (UniformWater or FlowGrid) and sums their forces.

@@ -191,6 +191,10 @@ late = tempfile.mkdtemp(prefix="tsunagi_flow_")
 write_flow(late, standing_wave(0.05, 1.2, 0.3, 1.0), np.linspace(0.0, 1.0, 20), np.linspace(-0.3, 0.2, 11), 0.3, 0.5, 0.1, 0.02)
 refused("flow that begins after the time asked for", GOOD, "would start at t = 0.3 s", "time.end = 0.2 s", arguments=("--flow", late))
 refused("check of the same", GOOD, "would start at t = 0.3 s", arguments=("--flow", late), verb="check")
+for excess in (-0.1, 1.5):
+    wet = tempfile.mkdtemp(prefix="tsunagi_flow_")
+    write_flow(wet, lambda t, X, Z: (0.0, 0.0, 0.0, 0.0, np.where(X < 0.5, 1.0, 1.0 if t < 0.05 else excess)), np.linspace(0.0, 1.0, 20), np.linspace(-0.3, 0.2, 11), 0.0, 0.2, 0.2, 0.02)
+    refused(f"wet fraction of {excess}", GOOD, "window_000000.h5", "/flow/wet", f"{excess}", "0 to 1", arguments=("--flow", wet))
 refused("flow folder that is not there", GOOD, "no such folder", arguments=("--flow", "/nonexistent"))
 
 other = tempfile.mkdtemp(prefix="tsunagi_flow_")
@@ -244,6 +248,12 @@ with open(state + ".text", "w") as f:
     f.write("no HDF5 at all")
 refused("state that is no HDF5 file", GOOD, "state.h5.text", arguments=("--from", state + ".text"))
 refused("restart time without a window", put("[dem.restart]\ntime = 0.05\n"), "restart", arguments=("--from", state))
+
+moving = run(GOOD + "[[wires.link]]\nblocks = [1, 2]\nspheres = [1, 1]\n")
+kept = os.path.join(moving.folder, "state.h5")
+refused("another rest length for a wire that is kept", GOOD.replace("end = 0.2", "end = 0.4") + "[[wires.link]]\nblocks = [2, 1]\nspheres = [1, 1]\nrest_length = 0.2\n",
+        "rest_length of 0.2 m", "blocks 2 and 1", arguments=("--from", kept))
+check.true("no word where none is given", run(GOOD.replace("end = 0.2", "end = 0.4") + "[[wires.link]]\nblocks = [2, 1]\nspheres = [1, 1]\n", "--from", kept).status == 0)
 
 # What an earlier run wrote survives a bad second call.
 done = run(GOOD)

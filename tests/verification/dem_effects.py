@@ -112,7 +112,7 @@ done = run(linked)
 contacts, wires = (int(re.search(rf"(\d+) {what}", words.split("a step ")[1]).group(1)) for what in ("contacts", "wires"))
 steps = float(re.search(r"steps +at most (\d+)", words).group(1))
 print(f"forecast: {contacts} contacts, {wires} wires, {steps:.0f} steps; run: {done.figure('contacts'):.0f}, {done.figure('wires.count'):.0f}, {done.figure('steps'):.0f}")
-# Within a factor of 2, as asked of a forecast; the run's steps include packing, which the forecast leaves out.
+# Within a factor of 2, as asked of a forecast; steps are those of the run, the packing's stand in a line of their own.
 check.below("forecast of contacts", max(contacts / done.figure("contacts"), done.figure("contacts") / contacts), 2.0)
 check.true("forecast of wires", wires == done.figure("wires.count"))
 check.below("forecast of steps", max(steps / done.figure("steps"), done.figure("steps") / steps), 2.0)
