@@ -80,7 +80,7 @@ def tensions_of_start(r):
 still = run(SCENE)
 check.true("a run in still water", still.status == 0, still.message)
 with h5py.File(os.path.join(still.folder, "geometry.h5")) as g:
-    home, home_orientation = g["/packed/position"][:], g["/packed/file_orientation"][:]
+    home, home_orientation = g["/packed/position"][:], g["/packed/orientation"][:]
 layout = written("layout.toml", LAYOUT)
 row_2 = slice(COLUMNS, 2 * COLUMNS)
 
