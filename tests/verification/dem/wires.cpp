@@ -84,13 +84,15 @@ TEST(WireBreaking, HoldsAtTheLongestLengthAndBreaksBeyondIt) {
     world.add("sphere", Vector(0, 0, 0));
     world.add("sphere", Vector(0.02, 0, 0));
     const double r0 = 0.015625, stretch = 0.00390625;  // both exact in binary: r_max = 0.01953125
-    for (const auto& [r, intact] :
-         {std::pair{r0 + stretch, true}, {std::nextafter(r0 + stretch, 1.0), false}}) {
+    // r_max is known to the rounding of r0 + psi d and of the places of the ends: 1e-12 of it is still r_max.
+    for (const auto& [r, intact] : {std::pair{r0 + stretch, true},
+                                    {std::nextafter(r0 + stretch, 1.0), true},
+                                    {(r0 + stretch) * (1 + 2e-12), false}}) {
         Wires wires = one_wire(WireLaw::hooke, r0, 100, stretch);
         world.blocks.position[1].x() = r;
         wires.pull(world.blocks, 1.5);
         EXPECT_EQ(wires.is_intact[0] != 0, intact) << r;
-        EXPECT_EQ(wires.tension[0], intact ? 100 * stretch : 0.0);
+        EXPECT_EQ(wires.tension[0], intact ? 100 * (r - r0) : 0.0);
         EXPECT_EQ(wires.broken_at[0], intact ? -1.0 : 1.5);
     }
 }
