@@ -6,7 +6,6 @@
 
 #include "cmps/near_field.hpp"
 #include "cmps/scene_geometry.hpp"
-#include "cmps/window_output.hpp"
 
 namespace cmps {
 namespace {
@@ -42,18 +41,13 @@ double height_to_fall(const Scene& scene, const Solid& solid, const Particles& p
 
 /// Mean step, s, when water at rest allows `largest` (0.4 l0 / sqrt(g h)). What moves fastest, over sqrt(g
 /// h), as met in runs: 0.6 under waves of H/h = 0.2 to 0.4, 1.3 to 1.8 in columns that collapse and in tanks
-/// that are shaken, nothing in still water. Steps land on the samples that are taken most often.
+/// that are shaken, nothing in still water.
 double mean_step(const Scene& scene, const Solid& solid, const Particles& particles, double largest) {
     const bool is_still =
         scene.gravity_file.empty() && height_to_fall(scene, solid, particles) < 0.5 * scene.settings.spacing;
     const double fastest = scene.drive != Drive::none ? 0.6 : is_still ? 0.0 : 1.45;
     const double gravity_step = 0.4;
-    const double limit = largest * std::min(1.0, scene.settings.courant / (gravity_step * fastest + 1e-12));
-    double interval = scene.particles_interval;
-    if (scene.has_flow) interval = std::min(interval, scene.flow.interval);
-    if (!scene.structure.empty()) interval = std::min(interval, force_interval);
-    for (const common::Gauge& gauge : scene.gauges) interval = std::min(interval, gauge.interval);
-    return interval / std::ceil(interval / limit - 1e-9);
+    return largest * std::min(1.0, scene.settings.courant / (gravity_step * fastest + 1e-12));
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ struct Upstream {
     }
     Upstream(const common::StageCommand& command, const cmps::Scene& scene)
         : reader(command.upstream, "boussinesq", wave_datasets, command.follow),
-          waves(reader, scene.offshore - 0.5, scene.offshore + reach(scene)) {
+          waves(reader, scene.offshore - 0.5, scene.offshore + reach(scene), scene.time.end) {
         waves.check_depth([&](double x) { return -cmps::bottom_level(scene, x); });
         if (!command.follow && reader.available_until() < scene.time.end - 1e-9)
             throw common::InputError(

@@ -12,8 +12,6 @@
 namespace cmps {
 namespace {
 
-constexpr double time_slack = 1e-9;  // s: rounding of instants
-
 /// Level of the water at the start, for the first guess of its pressure, m.
 double highest_water(const Scene& scene) {
     double surface = 0;
@@ -25,7 +23,7 @@ double highest_water(const Scene& scene) {
 }  // namespace
 
 Simulation::Simulation(const Scene& scene, WaveField* waves, double start)
-    : scene_(scene), solid_(make_solid(scene)), waves_(waves), start_(start) {
+    : scene_(scene), solid_(make_solid(scene)), waves_(waves), start_(start), time_(start) {
     if (waves_) waves_->go_to(start);
     const bool starts_in_waves = waves_ && scene_.start;
     field_ = std::make_unique<NearField>(
@@ -35,7 +33,7 @@ Simulation::Simulation(const Scene& scene, WaveField* waves, double start)
     field_->settle(settling_sweeps, highest_water(scene_));
     compose_effects();
     balance_.emplace(scene_, solid_, *field_);
-    output_.emplace(scene_, solid_, field_->particles, basin_ ? rear_of_structure(scene_) : scene_.onshore);
+    output_.emplace(scene_, solid_, field_->particles);
 }
 
 template <class Kind, class... Arguments>
@@ -83,26 +81,27 @@ void Simulation::add_offshore_boundary() {
 common::Window Simulation::advance_window(const common::WindowClock& clock, std::int64_t index,
                                           const std::function<void(double)>& on_step) {
     const double end = clock.end_of(index);
-    double time = clock.begin_of(index);
-    if (waves_) waves_->cover(time, end);
     output_->begin(clock, index);
-    output_->record(time, *field_, overtopped());
-    while (time < end - time_slack) {
-        const double target = output_->next_due(end);
-        const double step = common::landing_step(time, target, field_->largest_step());
-        field_->advance(time, step);
-        time = target - time <= step * (1 + 1e-9) ? target : time + step;
-        output_->record(time, *field_, overtopped());
-        on_step(time);
+    while (!output_->is_complete()) {
+        const double next = time_ + field_->largest_step();
+        if (waves_) waves_->cover(time_, next);
+        if (next >= end) {
+            balance_->update(*field_, wall_ ? wall_->position() : scene_.offshore);
+            before_crossing_ = save_state();
+        }
+        output_->before_step(time_, next, *field_, overtopped());
+        field_->advance(time_, next - time_);
+        time_ = next;
+        output_->after_step(time_, *field_, overtopped());
+        on_step(time_);
     }
-    balance_->update(*field_, wall_ ? wall_->position() : scene_.offshore);
     return output_->take();
 }
 
-common::DataFile Simulation::state() const {
+common::DataFile Simulation::save_state() const {
     common::DataFile state;
     save(*field_, state);
-    state.datasets["/run"] = common::real64("-", {1}, {start_});
+    state.datasets["/run"] = common::real64("s", {2}, {start_, time_});
     const auto balance = balance_->state();
     state.datasets["/balance"] = common::real64("-", {balance.size()}, balance);
     return state;
@@ -110,6 +109,7 @@ common::DataFile Simulation::state() const {
 
 void Simulation::restore(const common::DataFile& state) {
     cmps::restore(*field_, state);
+    time_ = state.at("/run").doubles().at(1);
     steps_before_ = field_->counts.steps;
     balance_->restore(state.at("/balance").doubles());
 }

@@ -26,11 +26,13 @@ class Simulation {
     /// `waves`: present when the scene is driven by waves; must outlive this, as `scene` must.
     Simulation(const Scene& scene, WaveField* waves, double start);
 
-    /// Advances to the end of window `index`, recording what is due.
+    /// Advances to the end of window `index` or just past it, recording what is due. Steps are as long as the
+    /// water allows: windows and samples end within them.
     common::Window advance_window(const common::WindowClock& clock, std::int64_t index,
                                   const std::function<void(double)>& on_step);
 
-    common::DataFile state() const;
+    /// The state before the step that crossed the end of the last window: what the next one goes on from.
+    const common::DataFile& state() const { return before_crossing_; }
     void restore(const common::DataFile& state);
     common::DataFile geometry() const { return geometry_file(scene_, solid_); }
     void describe(common::RunRecord& record) const;
@@ -38,6 +40,7 @@ class Simulation {
     const NearField& field() const { return *field_; }
 
  private:
+    common::DataFile save_state() const;
     void compose_effects();
     void add_offshore_boundary();
     template <class Kind, class... Arguments>
@@ -55,7 +58,8 @@ class Simulation {
     Absorption* absorption_ = nullptr;
     std::optional<Balance> balance_;
     std::optional<WindowOutput> output_;
-    double start_;
+    common::DataFile before_crossing_;
+    double start_, time_;           // s
     std::size_t steps_before_ = 0;  // of the run that this one goes on with
 };
 

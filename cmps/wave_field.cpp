@@ -34,7 +34,8 @@ void differentiate(const std::vector<double>& x, const std::vector<double>& f, s
 
 }  // namespace
 
-WaveField::WaveField(common::WindowReader& reader, double x0, double x1) : reader_(reader) {
+WaveField::WaveField(common::WindowReader& reader, double x0, double x1, double end)
+    : reader_(reader), end_(end) {
     const common::Window& window = reader_.first();
     const auto x = window.at("/x").as_double(), depth = window.at("/still_water_depth").as_double();
     if (x.size() < 4 || x.front() > x0 || x.back() < x1)
@@ -97,6 +98,7 @@ std::size_t WaveField::samples_until(double time) const {
 }
 
 void WaveField::cover(double t0, double t1) {
+    t1 = std::min(t1, end_);
     if (samples_.empty()) {
         const auto index = reader_.index_at(t0);
         // slopes look three samples back: windows before t0 until they are there
@@ -138,6 +140,7 @@ double WaveField::arrival(double x, double threshold, double from) {
 }
 
 void WaveField::go_to(double time) {
+    time = std::min(time, end_);
     const std::size_t count = samples_.size(), nodes = x_.size();
     if (count < 2) throw common::InputError("a wave window holds a single instant: nothing to interpolate");
     const std::size_t k = std::clamp<std::size_t>(samples_until(time), 1, count - 1) - 1;

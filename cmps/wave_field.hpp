@@ -18,8 +18,9 @@ namespace cmps {
 
 class WaveField {
  public:
-    /// Keeps nodes within [x0, x1] and the nodes around. Throws InputError when the windows do not cover it.
-    WaveField(common::WindowReader& reader, double x0, double x1);
+    /// Keeps nodes within [x0, x1] and the nodes around. At `end` (s) the waves stand still: a last step that
+    /// goes past it needs none of later. Throws InputError when the windows do not cover it.
+    WaveField(common::WindowReader& reader, double x0, double x1, double end);
     /// Throws InputError where the windows' still water depth is not that of the scene, `depth(x)` (m): they
     /// are then the waves of another scene.
     void check_depth(const std::function<double(double)>& depth) const;
@@ -51,7 +52,7 @@ class WaveField {
 
     common::WindowReader& reader_;
     std::int64_t next_index_ = 0;
-    double last_time_ = 0;
+    double end_, last_time_ = 0;
     std::size_t first_node_ = 0;
     std::vector<double> x_, depth_;
     std::deque<Sample> samples_;

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
 
 #include "cmps/gauges.hpp"
 #include "cmps/scene_geometry.hpp"
@@ -10,25 +13,28 @@
 namespace cmps {
 namespace {
 
-constexpr double time_slack = 1e-9;  // s: sample times are computed in several ways
+constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 
-bool is_due(Series& series, double time) {
-    if (series.next >= series.due.size() || time < series.due[series.next] - time_slack) return false;
-    series.time.push_back(series.due[series.next++]);
-    return true;
+std::size_t water_beyond(const Particles& particles, double x) {
+    std::size_t count = 0;
+    for (std::size_t i = particles.first_fluid(); i < particles.size(); ++i) count += particles.x[i] > x;
+    return count;
 }
 
 common::Dataset times(const Series& series) {
-    return common::real64("s", {series.time.size()}, series.time);
+    return common::real64("s", {series.next}, series.times());
 }
 
 }  // namespace
 
-WindowOutput::WindowOutput(const Scene& scene, const Solid& solid, const Particles& particles, double x1)
+WindowOutput::WindowOutput(const Scene& scene, const Solid& solid, const Particles& particles)
     : scene_(scene), solid_(solid), initial_fluid_(particles.fluid) {
     if (scene_.has_flow) flow_.emplace(scene_.flow, solid_, scene_.settings.spacing);
     for (const common::Gauge& gauge : scene_.gauges)
-        if (gauge.x >= scene_.offshore && gauge.x <= x1) gauges_.push_back(gauge);
+        if (gauge.x >= scene_.offshore && gauge.x <= scene_.onshore) {
+            gauges_.push_back(gauge);
+            beyond_at_start_.push_back(water_beyond(particles, gauge.x));
+        }
     gauge_series_.resize(gauges_.size());
     const bool reads_pressure = std::any_of(gauges_.begin(), gauges_.end(), [](const common::Gauge& gauge) {
         return gauge.kind == common::Gauge::Kind::pressure;
@@ -49,87 +55,134 @@ void WindowOutput::begin(const common::WindowClock& clock, std::int64_t index) {
     window_ = {};
     window_.index = index, window_.t_begin = clock.begin_of(index), window_.t_end = clock.end_of(index);
     for_each_series([&](Series& series, double interval) {
-        series = Series{};
-        series.due = clock.samples_in(index, interval);
+        series.due = clock.samples_in(index, interval), series.next = 0;
+        for (auto& values : series.values) values.clear();
+        if (series.after.is_made) take_samples(series);
     });
 }
 
-double WindowOutput::next_due(double end) const {
-    double next = end;
-    const auto look_at = [&](const Series& series) {
-        if (series.next < series.due.size()) next = std::min(next, series.due[series.next]);
-    };
-    look_at(flow_series_), look_at(particle_series_), look_at(force_series_);
-    for (const Series& series : gauge_series_) look_at(series);
-    return next;
+bool WindowOutput::is_complete() const {
+    return particle_series_.is_complete();  // all end with the window
 }
 
-void WindowOutput::record(double time, const NearField& field, std::size_t overtopped) {
-    const Particles& particles = field.particles;
-    if (is_due(flow_series_, time)) record_flow(field);
-    if (is_due(particle_series_, time)) record_particles(particles);
-    if (is_due(force_series_, time))
-        for (std::size_t k = 0; k < scene_.structure.size(); ++k)
-            for (const double component : faces_->force_on(field.face_pressure, static_cast<std::int32_t>(k)))
-                force_series_.values.push_back(static_cast<float>(component));
-    for (std::size_t g = 0; g < gauges_.size(); ++g)
-        if (is_due(gauge_series_[g], time)) record_gauge(gauges_[g], field, overtopped, gauge_series_[g]);
+void WindowOutput::before_step(double time, double next, const NearField& field, std::size_t overtopped) {
+    for_each_series([&](Series& series, double) {
+        if (!series.is_passed_by(next)) return;
+        if (series.after.is_made && series.after.time == time)
+            std::swap(series.before, series.after);  // the step before was read at its end
+        else
+            read(series, field, overtopped, time, series.before);
+    });
 }
 
-void WindowOutput::record_flow(const NearField& field) {
+void WindowOutput::after_step(double time, const NearField& field, std::size_t overtopped) {
+    for_each_series([&](Series& series, double) {
+        if (!series.is_passed_by(time)) return;
+        read(series, field, overtopped, time, series.after);
+        take_samples(series);
+    });
+}
+
+void WindowOutput::take_samples(Series& series) {
+    const double from = series.before.time, to = series.after.time;
+    for (; series.is_passed_by(to); ++series.next) {
+        const double share = std::clamp((series.due[series.next] - from) / (to - from), 0.0, 1.0);
+        if (&series == &particle_series_) {
+            sample_particles(share);
+            continue;
+        }
+        for (std::size_t f = 0; f < series.values.size(); ++f) {
+            const auto &before = series.before.fields[f], &after = series.after.fields[f];
+            for (std::size_t k = 0; k < after.size(); ++k)
+                series.values[f].push_back(static_cast<float>(between(before[k], after[k], share)));
+        }
+    }
+}
+
+void WindowOutput::read(const Series& series, const NearField& field, std::size_t overtopped, double time,
+                        Reading& reading) {
+    reading.time = time, reading.is_made = true;
+    if (&series == &flow_series_) return read_flow(field, reading);
+    if (&series == &particle_series_) return read_particles(field.particles, reading);
+    for (auto& values : reading.fields) values.clear();
+    if (&series == &force_series_) return read_forces(field, reading);
+    read_gauge(static_cast<std::size_t>(&series - gauge_series_.data()), field, overtopped, reading);
+}
+
+void WindowOutput::read_flow(const NearField& field, Reading& reading) {
     flow_->evaluate(field.particles);
-    const auto append = [](std::vector<float>& to, const std::vector<float>& from) {
-        to.insert(to.end(), from.begin(), from.end());
-    };
-    append(flow_series_.values, flow_->velocity), append(flow_series_.more, flow_->acceleration);
-    append(flow_series_.third, flow_->wet);
+    reading.fields[0].assign(flow_->velocity.begin(), flow_->velocity.end());
+    reading.fields[1].assign(flow_->acceleration.begin(), flow_->acceleration.end());
+    reading.fields[2].assign(flow_->wet.begin(), flow_->wet.end());
 }
 
-/// Fluid by identity (those taken out stand at the end wall's foot, at rest), then walls.
-void WindowOutput::record_particles(const Particles& particles) {
-    Series& series = particle_series_;
-    const std::size_t count = initial_fluid_ + particles.walls, from = series.third.size();
-    series.values.resize(2 * (from + count)), series.more.resize(2 * (from + count));
-    series.third.resize(from + count);
-    const double away_x = scene_.onshore, away_z = bottom_level(scene_, scene_.onshore);
-    for (std::size_t k = 0; k < initial_fluid_; ++k) {
-        series.values[2 * (from + k)] = static_cast<float>(away_x);
-        series.values[2 * (from + k) + 1] = static_cast<float>(away_z);
-    }
+/// Position, velocity, pressure: fluid by identity (nowhere, where one has been taken out), then walls.
+void WindowOutput::read_particles(const Particles& particles, Reading& reading) const {
+    auto& [position, velocity, pressure] = reading.fields;
+    const std::size_t count = initial_fluid_ + particles.walls;
+    position.assign(2 * count, nowhere), velocity.assign(2 * count, 0.0), pressure.assign(count, 0.0);
     for (std::size_t i = particles.first_wall(); i < particles.size(); ++i) {
-        const std::size_t slot =
-            from + (particles.is_fluid(i) ? static_cast<std::size_t>(particles.identity[i])
-                                          : initial_fluid_ + i - particles.first_wall());
-        series.values[2 * slot] = static_cast<float>(particles.x[i]);
-        series.values[2 * slot + 1] = static_cast<float>(particles.z[i]);
-        series.more[2 * slot] = static_cast<float>(particles.u[i]);
-        series.more[2 * slot + 1] = static_cast<float>(particles.w[i]);
-        series.third[slot] = static_cast<float>(particles.pressure[i]);
+        const std::size_t slot = particles.is_fluid(i) ? static_cast<std::size_t>(particles.identity[i])
+                                                       : initial_fluid_ + i - particles.first_wall();
+        position[2 * slot] = particles.x[i], position[2 * slot + 1] = particles.z[i];
+        velocity[2 * slot] = particles.u[i], velocity[2 * slot + 1] = particles.w[i];
+        pressure[slot] = particles.pressure[i];
     }
 }
 
-void WindowOutput::record_gauge(const common::Gauge& gauge, const NearField& field, std::size_t overtopped,
-                                Series& series) {
+/// Those taken out stand at the end wall's foot, at rest; one that the step took out, brought back or set
+/// elsewhere is where the step has left it.
+void WindowOutput::sample_particles(double share) {
+    const auto& before = particle_series_.before.fields;
+    const auto& after = particle_series_.after.fields;
+    auto& values = particle_series_.values;
+    const double away[2] = {scene_.onshore, bottom_level(scene_, scene_.onshore)};
+    const double far = 2.0 * scene_.settings.spacing;  // steps move water by less than one
+    for (std::size_t k = 0; k < after[2].size(); ++k) {
+        const double dx = after[0][2 * k] - before[0][2 * k], dz = after[0][2 * k + 1] - before[0][2 * k + 1];
+        const double part = dx * dx + dz * dz < far * far ? share : 1.0;  // nowhere is never near
+        const auto value = [&](std::size_t f, std::size_t n) {
+            return part < 1.0 ? between(before[f][n], after[f][n], part) : after[f][n];
+        };
+        const bool is_here = std::isfinite(after[0][2 * k]);
+        for (std::size_t c = 0; c < 2; ++c) {
+            values[0].push_back(static_cast<float>(is_here ? value(0, 2 * k + c) : away[c]));
+            values[1].push_back(static_cast<float>(value(1, 2 * k + c)));
+        }
+        values[2].push_back(static_cast<float>(value(2, k)));
+    }
+}
+
+void WindowOutput::read_forces(const NearField& field, Reading& reading) const {
+    for (std::size_t k = 0; k < scene_.structure.size(); ++k)
+        for (const double component : faces_->force_on(field.face_pressure, static_cast<std::int32_t>(k)))
+            reading.fields[0].push_back(component);
+}
+
+void WindowOutput::read_gauge(std::size_t index, const NearField& field, std::size_t overtopped,
+                              Reading& reading) const {
+    const common::Gauge& gauge = gauges_[index];
     const Particles& particles = field.particles;
     const double l0 = scene_.settings.spacing;
+    std::vector<double>& values = reading.fields[0];
     switch (gauge.kind) {
         case common::Gauge::Kind::surface:
-            series.values.push_back(static_cast<float>(surface_elevation(particles, solid_, l0, gauge.x)));
+            values.push_back(surface_elevation(particles, solid_, l0, gauge.x));
             break;
         case common::Gauge::Kind::pressure:
-            series.values.push_back(static_cast<float>(
+            values.push_back(
                 faces_->mean_around(field.face_pressure, gauge.x, gauge.z, gauge.diameter)
-                    .value_or(pressure_in_water(particles, l0, gauge.x, gauge.z, gauge.diameter))));
+                    .value_or(pressure_in_water(particles, l0, gauge.x, gauge.z, gauge.diameter)));
             break;
         case common::Gauge::Kind::velocity:
             for (const double component : velocity_at(particles, l0, gauge.x, gauge.z))
-                series.values.push_back(static_cast<float>(component));
+                values.push_back(component);
             break;
         case common::Gauge::Kind::overtopping: {
-            std::size_t beyond = overtopped;
-            for (std::size_t i = particles.first_fluid(); i < particles.size(); ++i)
-                beyond += particles.x[i] > gauge.x;
-            series.values.push_back(static_cast<float>(static_cast<double>(beyond) * l0 * l0));
+            // water that stood behind the gauge at the start has not passed it
+            const auto passed = static_cast<double>(overtopped + water_beyond(particles, gauge.x)) -
+                                static_cast<double>(beyond_at_start_[index]);
+            values.push_back(passed * l0 * l0);
             break;
         }
     }
@@ -138,48 +191,49 @@ void WindowOutput::record_gauge(const common::Gauge& gauge, const NearField& fie
 common::Window WindowOutput::take() {
     auto& data = window_.datasets;
     if (flow_) {
-        const std::size_t nt = flow_series_.time.size(), nx = flow_->x.size(), nz = flow_->z.size();
+        const std::size_t nt = flow_series_.next, nx = flow_->x.size(), nz = flow_->z.size();
         data["/flow/time"] = times(flow_series_);
         data["/flow/x"] = common::real64("m", {nx}, flow_->x);
         data["/flow/z"] = common::real64("m", {nz}, flow_->z);
-        data["/flow/velocity"] = common::real32("m/s", {nt, nz, nx, 2}, std::move(flow_series_.values));
-        data["/flow/acceleration"] = common::real32("m/s2", {nt, nz, nx, 2}, std::move(flow_series_.more));
-        data["/flow/wet"] = common::real32("-", {nt, nz, nx}, std::move(flow_series_.third));
+        data["/flow/velocity"] = common::real32("m/s", {nt, nz, nx, 2}, std::move(flow_series_.values[0]));
+        data["/flow/acceleration"] =
+            common::real32("m/s2", {nt, nz, nx, 2}, std::move(flow_series_.values[1]));
+        data["/flow/wet"] = common::real32("-", {nt, nz, nx}, std::move(flow_series_.values[2]));
     }
-    const std::size_t ns = particle_series_.time.size();
-    const std::size_t np = particle_series_.third.size() / std::max<std::size_t>(ns, 1);
+    const std::size_t ns = particle_series_.next;
+    const std::size_t np = particle_series_.values[2].size() / std::max<std::size_t>(ns, 1);
     data["/particles/time"] = times(particle_series_);
-    data["/particles/position"] = common::real32("m", {ns, np, 2}, std::move(particle_series_.values));
-    data["/particles/velocity"] = common::real32("m/s", {ns, np, 2}, std::move(particle_series_.more));
-    data["/particles/pressure"] = common::real32("Pa", {ns, np}, std::move(particle_series_.third));
+    data["/particles/position"] = common::real32("m", {ns, np, 2}, std::move(particle_series_.values[0]));
+    data["/particles/velocity"] = common::real32("m/s", {ns, np, 2}, std::move(particle_series_.values[1]));
+    data["/particles/pressure"] = common::real32("Pa", {ns, np}, std::move(particle_series_.values[2]));
     std::vector<std::int32_t> kind(np, 0);  // 0: fluid, 1: wall
     std::fill(kind.begin() + static_cast<std::ptrdiff_t>(initial_fluid_), kind.end(), 1);
     data["/particles/kind"] = common::integer32("-", {np}, std::move(kind));
     for (std::size_t g = 0; g < gauges_.size(); ++g) {
         Series& series = gauge_series_[g];
         const std::string group = "/gauges/" + gauges_[g].name;
-        const std::size_t n = series.time.size();
+        const std::size_t n = series.next;
         data[group + "/time"] = times(series);
         switch (gauges_[g].kind) {
             case common::Gauge::Kind::surface:
-                data[group + "/surface_elevation"] = common::real32("m", {n}, std::move(series.values));
+                data[group + "/surface_elevation"] = common::real32("m", {n}, std::move(series.values[0]));
                 break;
             case common::Gauge::Kind::pressure:
-                data[group + "/pressure"] = common::real32("Pa", {n}, std::move(series.values));
+                data[group + "/pressure"] = common::real32("Pa", {n}, std::move(series.values[0]));
                 break;
             case common::Gauge::Kind::velocity:
-                data[group + "/velocity"] = common::real32("m/s", {n, 2}, std::move(series.values));
+                data[group + "/velocity"] = common::real32("m/s", {n, 2}, std::move(series.values[0]));
                 break;
             case common::Gauge::Kind::overtopping:
-                data[group + "/overtopped_volume"] = common::real32("m2", {n}, std::move(series.values));
+                data[group + "/overtopped_volume"] = common::real32("m2", {n}, std::move(series.values[0]));
                 break;
         }
     }
     if (!scene_.structure.empty()) {
-        const std::size_t n = force_series_.time.size();
+        const std::size_t n = force_series_.next;
         data["/structure/time"] = times(force_series_);
         data["/structure/force"] =
-            common::real32("N/m", {n, scene_.structure.size(), 2}, std::move(force_series_.values));
+            common::real32("N/m", {n, scene_.structure.size(), 2}, std::move(force_series_.values[0]));
     }
     return std::move(window_);
 }

@@ -1,5 +1,5 @@
 /// What a run records - flow grid, particles, forces, gauges - sampled within a window and handed over as
-/// one.
+/// one. Steps take no notice of it: a sample is found on the line between the two steps around its time.
 #pragma once
 
 #include <optional>
@@ -9,6 +9,7 @@
 #include "cmps/flow_grid.hpp"
 #include "cmps/near_field.hpp"
 #include "cmps/scene.hpp"
+#include "cmps/series.hpp"
 #include "cmps/solid.hpp"
 #include "common/window.hpp"
 #include "common/window_clock.hpp"
@@ -18,35 +19,36 @@ namespace cmps {
 /// Between two samples of the forces on structures, s.
 inline constexpr double force_interval = 0.02;
 
-/// Samples of one quantity within a window.
-struct Series {
-    std::vector<double> due;  ///< sample times of this window, s
-    std::size_t next = 0;
-    std::vector<double> time;
-    std::vector<float> values, more, third;
-};
-
 class WindowOutput {
  public:
-    /// Gauges in [scene.offshore, x1] are recorded. `particles`: those of the start.
-    WindowOutput(const Scene& scene, const Solid& solid, const Particles& particles, double x1);
+    /// `particles`: those of the start.
+    WindowOutput(const Scene& scene, const Solid& solid, const Particles& particles);
 
-    /// Forgets the last window's samples and notes when those of window `index` are due.
+    /// Forgets the last window's samples, notes when those of window `index` are due, and takes those that
+    /// the last step has passed already.
     void begin(const common::WindowClock& clock, std::int64_t index);
-    /// The next instant at which something is due, at most `end`, s.
-    double next_due(double end) const;
-    /// Records what is due at `time`; `overtopped`: particles that were taken out behind the structure.
-    void record(double time, const NearField& field, std::size_t overtopped);
+    /// True once the samples at the window's end are there.
+    bool is_complete() const;
+    /// Before a step from `time` to `next`: reads what has samples due within it. `overtopped`: particles
+    /// that were taken out behind the structure.
+    void before_step(double time, double next, const NearField& field, std::size_t overtopped);
+    /// After a step to `time`: reads again, and takes the samples that the step has passed.
+    void after_step(double time, const NearField& field, std::size_t overtopped);
     /// The window's datasets.
     common::Window take();
 
  private:
-    void record_flow(const NearField& field);
-    void record_particles(const Particles& particles);
-    void record_gauge(const common::Gauge& gauge, const NearField& field, std::size_t overtopped,
-                      Series& series);
+    void read_flow(const NearField& field, Reading& reading);
+    void read_particles(const Particles& particles, Reading& reading) const;
+    void read_forces(const NearField& field, Reading& reading) const;
+    void read_gauge(std::size_t index, const NearField& field, std::size_t overtopped,
+                    Reading& reading) const;
+    void sample_particles(double share);
     template <class Visit>
     void for_each_series(const Visit& visit);
+    void read(const Series& series, const NearField& field, std::size_t overtopped, double time,
+              Reading& reading);
+    void take_samples(Series& series);
 
     const Scene& scene_;
     const Solid& solid_;
@@ -55,6 +57,7 @@ class WindowOutput {
     std::optional<FlowGrid> flow_;
     std::optional<FacePressure> faces_;
     std::vector<common::Gauge> gauges_;
+    std::vector<std::size_t> beyond_at_start_;  // per gauge, particles that stood behind it at the start
     Series flow_series_, particle_series_, force_series_;
     std::vector<Series> gauge_series_;
 };

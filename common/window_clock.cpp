@@ -40,9 +40,4 @@ std::vector<double> WindowClock::samples_in(std::int64_t index, double interval)
     return samples;
 }
 
-double landing_step(double now, double target, double largest) {
-    const double left = target - now;
-    return left / std::max(1.0, std::ceil(left / largest * (1 - 1e-12)));
-}
-
 }  // namespace common

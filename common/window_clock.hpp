@@ -25,7 +25,4 @@ class WindowClock {
     std::int64_t count_;
 };
 
-/// Step size <= largest that lands exactly on `target` in equal steps; avoids slivers.
-double landing_step(double now, double target, double largest);
-
 }  // namespace common

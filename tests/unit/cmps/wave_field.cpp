@@ -59,7 +59,7 @@ common::WindowReader reader_of(const std::filesystem::path& folder) {
 
 TEST(WaveField, InterpolatesInTimeAndSpaceAcrossWindows) {
     auto reader = reader_of(write_windows("interpolation", 4));
-    cmps::WaveField waves(reader, 2.0, 3.0);
+    cmps::WaveField waves(reader, 2.0, 3.0, 100.0);
     for (const double t : {0.011, 0.49, 0.51, 1.234, 1.99}) {
         waves.cover(t, t);
         waves.go_to(t);
@@ -74,7 +74,7 @@ TEST(WaveField, InterpolatesInTimeAndSpaceAcrossWindows) {
 
 TEST(WaveField, ProfileHasTheMeanAndTheShapeOfLinearTheory) {
     auto reader = reader_of(write_windows("profile", 2));
-    cmps::WaveField waves(reader, 2.0, 3.0);
+    cmps::WaveField waves(reader, 2.0, 3.0, 100.0);
     waves.cover(0.0, 0.3);
     waves.go_to(0.3);
     const double x = 2.5, h = depth + elevation(x, 0.3);
@@ -101,7 +101,7 @@ TEST(WaveField, ProfileHasTheMeanAndTheShapeOfLinearTheory) {
 
 TEST(WaveField, FindsTheArrival) {
     auto reader = reader_of(write_windows("arrival", 4));
-    cmps::WaveField waves(reader, 2.0, 3.0);
+    cmps::WaveField waves(reader, 2.0, 3.0, 100.0);
     EXPECT_NEAR(waves.arrival(2.5, 0.5 * amplitude, 0.7), 0.7,
                 0.5);  // the wave reaches it twice a period of 2.2 s
     EXPECT_LT(waves.arrival(2.5, 2 * amplitude, 0.0), 0);
@@ -109,8 +109,8 @@ TEST(WaveField, FindsTheArrival) {
 
 TEST(WaveField, SaysWhatIsNotCovered) {
     auto reader = reader_of(write_windows("coverage", 2));
-    EXPECT_THROW(cmps::WaveField(reader, 4.5, 6.0), common::InputError);
-    cmps::WaveField waves(reader, 2.0, 3.0);
+    EXPECT_THROW(cmps::WaveField(reader, 4.5, 6.0, 100.0), common::InputError);
+    cmps::WaveField waves(reader, 2.0, 3.0, 100.0);
     EXPECT_THROW(waves.cover(0.0, 2.0), common::InputError);
 }
 

@@ -51,12 +51,6 @@ TEST(WindowClock, SamplesOfALongRunHaveNoSlivers) {
     }
 }
 
-TEST(LandingStep, EqualStepsLandOnTheTarget) {
-    EXPECT_DOUBLE_EQ(landing_step(0, 1, 0.3), 0.25);
-    EXPECT_DOUBLE_EQ(landing_step(0, 1, 0.25), 0.25);
-    EXPECT_DOUBLE_EQ(landing_step(0.9, 1, 0.3), 1 - 0.9);
-}
-
 TEST(OrderedSum, SameBitsForAnyNumberOfThreads) {
     const auto sum = [] {
         return ordered_sum(300000, [](std::size_t i) { return std::sin(static_cast<double>(i)) * 1e3; });
