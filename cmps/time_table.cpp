@@ -64,4 +64,18 @@ double TimeTable::value(std::size_t column, double time) const {
            s * s * (3 - 2 * s) * f[k + 1] + s * s * (s - 1) * h * slope[k + 1];
 }
 
+double TimeTable::mean(std::size_t column, double from, double to) const {
+    const auto& t = columns_[0];
+    double sum = 0, begin = from;
+    for (auto knot = std::upper_bound(t.begin(), t.end(), from); begin < to; ++knot) {
+        const double end = knot == t.end() ? to : std::min(*knot, to);
+        // Simpson's rule: exact for the cubics between rows
+        sum += (end - begin) / 6.0 *
+               (value(column, begin) + 4.0 * value(column, 0.5 * (begin + end)) + value(column, end));
+        if (knot == t.end()) break;
+        begin = end;
+    }
+    return sum / (to - from);
+}
+
 }  // namespace cmps

@@ -15,6 +15,8 @@ class TimeTable {
     TimeTable(const std::filesystem::path& file, std::size_t columns);
     /// Column 1, 2, ... at `time`.
     double value(std::size_t column, double time) const;
+    /// Mean of a column over [from, to].
+    double mean(std::size_t column, double from, double to) const;
     double first_time() const { return columns_[0].front(); }
     double last_time() const { return columns_[0].back(); }
 

@@ -11,8 +11,9 @@ class GravityHistory final : public Effect {
     explicit GravityHistory(TimeTable table) : table_(std::move(table)) {}
     std::string name() const override { return "gravity_history"; }
     void begin_step(NearField& field, double time, double step) override {
-        field.settings.gravity_x = table_.value(1, time + 0.5 * step);
-        field.settings.gravity_z = table_.value(2, time + 0.5 * step);
+        // means, so that a jerk within a step gives the water its whole impulse
+        field.settings.gravity_x = table_.mean(1, time, time + step);
+        field.settings.gravity_z = table_.mean(2, time, time + step);
     }
 
  private:
