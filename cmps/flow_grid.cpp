@@ -53,11 +53,14 @@ FlowGrid::FlowGrid(const FlowGridSettings& settings, const Solid& solid, double 
     std::vector<char> is_solid(nodes);
     for (std::size_t k = 0; k < z.size(); ++k)
         for (std::size_t i = 0; i < x.size(); ++i) is_solid[k * x.size() + i] = solid.contains(x[i], z[k]);
-    source_.resize(nodes);
+    source_.resize(nodes), normal_.assign(nodes, Point{0, 0});
     for (std::size_t k = 0; k < z.size(); ++k)
         for (std::size_t i = 0; i < x.size(); ++i) {
             const std::size_t node = k * x.size() + i;
             source_[node] = static_cast<std::int32_t>(node);
+            std::size_t face = 0;
+            const bool is_on_face = solid.distance(x[i], z[k], face) < 1e-6 * settings.spacing;
+            if (is_on_face || is_solid[node]) normal_[node] = solid.surface()[face].normal;
             if (!is_solid[node]) continue;
             source_[node] = -1;
             source_[node] = nearest_free(is_solid, i, k);
@@ -87,7 +90,7 @@ std::int32_t FlowGrid::nearest_free(const std::vector<char>& is_solid, std::size
     return nearest;
 }
 
-void FlowGrid::evaluate(const Particles& particles) {
+void FlowGrid::evaluate(const Particles& particles, const WaterMotion& motion) {
     std::fill(sums_.begin(), sums_.end(), 0.0);
     const WendlandKernel kernel{reach_};
     const double dx = x.size() > 1 ? x[1] - x[0] : 1.0, dz = z.size() > 1 ? z[1] - z[0] : 1.0;
@@ -108,8 +111,7 @@ void FlowGrid::evaluate(const Particles& particles) {
         const std::ptrdiff_t k1 =
             std::min(last(z), static_cast<std::ptrdiff_t>(std::floor((pz + reach_ - z[0]) / dz)));
         const bool is_fluid = particles.is_fluid(j);
-        const double value[fields] = {particles.u[j], particles.w[j], particles.acceleration_x[j],
-                                      particles.acceleration_z[j]};
+        const double value[fields] = {motion.u[j], motion.w[j], motion.du_dt[j], motion.dw_dt[j]};
         for (std::ptrdiff_t k = k0; k <= k1; ++k)
             for (std::ptrdiff_t i = i0; i <= i1; ++i) {
                 const double rx = px - x[i], rz = pz - z[k], w = kernel.weight(rx * rx + rz * rz);
@@ -137,6 +139,11 @@ void FlowGrid::evaluate(const Particles& particles) {
             share = std::clamp((sum[0] / full_weight_ / (1.0 - solid) - 0.1) / 0.8, 0.0, 1.0);
             if (share > 0)
                 for (int f = 0; f < fields; ++f) result[f] = linear_fit(sum, sum + moments + 3 * f, scale);
+        }
+        const Point& normal = normal_[node];
+        for (int f = 0; f < fields; f += 2) {
+            const double across = result[f] * normal[0] + result[f + 1] * normal[1];
+            result[f] -= across * normal[0], result[f + 1] -= across * normal[1];
         }
         wet[node] = static_cast<float>(share);
         for (int c = 0; c < 2; ++c) {

@@ -3,12 +3,14 @@
 /// Moving least squares of first order over fluid particles within reach (exact for linear fields, also next
 /// to the bed and the surface); a plain weighted mean where too few particles stand around. Wet fraction:
 /// share of the kernel that water fills of what the solid leaves, so that it is 1/2 on the surface. Nodes in
-/// the solid copy the nearest node outside it: an interpolation at the bed finds no holes. Zero where dry.
+/// the solid copy the nearest node outside it: an interpolation at the bed finds no holes. Nothing moves
+/// across the face of the solid, on its nodes and beneath. Zero where dry.
 #pragma once
 
 #include <vector>
 
 #include "cmps/particles.hpp"
+#include "cmps/path_average.hpp"
 #include "cmps/solid.hpp"
 
 namespace cmps {
@@ -23,7 +25,8 @@ class FlowGrid {
  public:
     FlowGrid(const FlowGridSettings& settings, const Solid& solid, double particle_spacing);
 
-    void evaluate(const Particles& particles);
+    /// `motion`: of the water at the particles.
+    void evaluate(const Particles& particles, const WaterMotion& motion);
 
     std::vector<double> x, z;         ///< nodes, m
     std::vector<float> velocity;      ///< (nz, nx, 2), m/s
@@ -34,6 +37,7 @@ class FlowGrid {
     std::int32_t nearest_free(const std::vector<char>& is_solid, std::size_t i, std::size_t k) const;
     double particle_spacing_, reach_, full_weight_;
     std::vector<std::int32_t> source_;  ///< node to copy from; itself outside the solid, -1: nothing near
+    std::vector<Point> normal_;         ///< of the face that a node lies on or beneath; zero elsewhere
     std::vector<double> sums_;
 };
 

@@ -53,6 +53,7 @@ double NearField::largest_step() const {
 void NearField::advance(double time, double step) {
     old_u_ = particles.u;
     old_w_ = particles.w;
+    if (path_average) path_average->begin_step(particles);
     const bool is_midpoint = settings.time_stepping == TimeStepping::midpoint;
     const auto run_effects = [&](auto member, double at) {
         for (const auto& effect : effects) {
@@ -81,7 +82,9 @@ void NearField::advance(double time, double step) {
     filter_velocity(step);
     if (is_midpoint) drift(0.5 * step);
     shift(share_of_step(step), true);
+    if (path_average) path_average->end_step(particles, step);
     run_effects(&Effect::end_step, time + step);
+    last_step_ = step;
     check(time, step);
     ++counts.steps;
 }
@@ -97,7 +100,9 @@ void NearField::drift(double step) {
 void NearField::update_geometry() {
     {
         const common::PhaseTimer timer(seconds.neighbours);
-        if (search.update(particles, {&old_u_, &old_w_})) ++counts.list_builds;
+        companions_ = {&old_u_, &old_w_};
+        if (path_average) companions_.insert(companions_.end(), {&path_average->old_x, &path_average->old_z});
+        if (search.update(particles, companions_)) ++counts.list_builds;
     }
     const common::PhaseTimer timer(seconds.geometry);
     std::visit(
@@ -175,12 +180,8 @@ void NearField::apply_gradient(double step) {
         strongest = std::max(strongest, (du * du + dw * dw) / (step * step));
     }
     push_apart(step);
-    const double share = acceleration_smoothing > step ? step / acceleration_smoothing : 1.0;
     double fastest = 0;
     for (std::size_t i = first; i < particles.size(); ++i) {
-        const double ax = (particles.u[i] - old_u_[i]) / step, az = (particles.w[i] - old_w_[i]) / step;
-        particles.acceleration_x[i] += share * (ax - particles.acceleration_x[i]);
-        particles.acceleration_z[i] += share * (az - particles.acceleration_z[i]);
         // a lone drop in flight meets nobody within a step and limits none
         if (place[i - particles.first_wall()] != Place::dry)
             fastest = std::max(fastest, particles.u[i] * particles.u[i] + particles.w[i] * particles.w[i]);
@@ -328,6 +329,7 @@ void NearField::shift(double share, bool carries_velocity) {
 void NearField::settle(int sweeps, double surface_level) {
     for (int sweep = 0; sweep < sweeps; ++sweep) {
         old_u_ = particles.u, old_w_ = particles.w;
+        if (path_average) path_average->begin_step(particles);
         update_geometry();
         shift(1.0, false);
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "cmps/interactions.hpp"
 #include "cmps/neighbours.hpp"
 #include "cmps/particles.hpp"
+#include "cmps/path_average.hpp"
 #include "cmps/pressure_equation.hpp"
 #include "cmps/pressure_solver.hpp"
 #include "cmps/settings.hpp"
@@ -71,6 +73,7 @@ class NearField {
     std::vector<Place> place;   ///< per carrier row
     PressureEquation equation;
     std::vector<double> face_pressure;  ///< Pa, on the face before each wall particle, as the water says
+    std::optional<PathAverage> path_average;  ///< where a flow grid is recorded
     PhaseSeconds seconds;
     StepCounts counts;
 
@@ -93,12 +96,13 @@ class NearField {
     VelocityFilter filter_;
     std::vector<double> gradient_x_, gradient_z_, unknown_pressure_, unknown_x_, unknown_z_, old_u_, old_w_,
         change_u_, change_w_;
-    double largest_speed_ = 0, largest_acceleration_ = 0;
+    std::vector<std::vector<double>*> companions_;  // arrays that go along when particles are put in order
+    double largest_speed_ = 0, largest_acceleration_ = 0, last_step_ = 0;
     double pressure_change_ = 0, pressure_sum_ = 0, stagnation_sum_ = 0;  ///< over particles and steps, Pa
 
  public:
-    double acceleration_smoothing = 0;  ///< s: time over which Du/Dt is averaged along the path
     double largest_speed() const { return largest_speed_; }
+    double last_step() const { return last_step_; }  ///< s
     /// Mean change of the pressure from one step to the next, over the mean pressure; in water that flies
     /// freely, where there is next to none, over a fifth of the stagnation pressure.
     double pressure_change_per_step() const {
@@ -108,12 +112,13 @@ class NearField {
     /// Largest speed, acceleration and gravity decide the next step; part of the state.
     std::vector<double> step_state() const {
         return {largest_speed_,   largest_acceleration_, settings.gravity_x, settings.gravity_z,
-                pressure_change_, pressure_sum_,         stagnation_sum_};
+                pressure_change_, pressure_sum_,         stagnation_sum_,    last_step_};
     }
     void restore_step_state(const std::vector<double>& state) {
         largest_speed_ = state.at(0), largest_acceleration_ = state.at(1);
         settings.gravity_x = state.at(2), settings.gravity_z = state.at(3);
         pressure_change_ = state.at(4), pressure_sum_ = state.at(5), stagnation_sum_ = state.at(6);
+        last_step_ = state.at(7);
     }
 };
 

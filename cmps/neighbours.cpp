@@ -213,7 +213,9 @@ void NeighbourSearch::sort_fluid(Particles& particles, const Cells& cells,
         std::copy(buffer.begin(), buffer.end(), array.begin() + static_cast<std::ptrdiff_t>(first));
     };
     reorder(particles.x), reorder(particles.z), reorder(particles.u), reorder(particles.w);
-    reorder(particles.pressure), reorder(particles.acceleration_x), reorder(particles.acceleration_z);
+    reorder(particles.pressure);
+    for (auto& mean : particles.path_u) reorder(mean);
+    for (auto& mean : particles.path_w) reorder(mean);
     reorder(particles.identity);
     for (std::vector<double>* const companion : companions) reorder(*companion);
 }

@@ -350,8 +350,9 @@ void read_output(const common::SceneFile& file, const Section& section, Scene& s
                                              "two ends at least",
                                              interval, scene.time.window));
     scene.flow = {.x0 = x[0], .x1 = x[1], .z0 = z[0], .z1 = z[1], .spacing = spacing, .interval = interval};
-    scene.acceleration_smoothing =
-        flow.number("acceleration_smoothing", "s", "time over which Du/Dt is averaged along the path",
+    scene.flow_smoothing =
+        flow.number("acceleration_smoothing", "s",
+                    "time over which velocity and Du/Dt are averaged along the path; lag removed",
                     Range::not_negative(), interval);
 }
 

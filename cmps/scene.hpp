@@ -51,7 +51,7 @@ struct Scene {
     // output
     FlowGridSettings flow;
     bool has_flow = false;
-    double particles_interval = 0, acceleration_smoothing = 0;  ///< s
+    double particles_interval = 0, flow_smoothing = 0;  ///< s
 
     // effects, decided
     std::vector<common::EffectRecord> effects;

@@ -28,9 +28,9 @@ Simulation::Simulation(const Scene& scene, WaveField* waves, double start)
     const bool starts_in_waves = waves_ && scene_.start;
     field_ = std::make_unique<NearField>(
         scene_.settings, initial_particles(scene_, solid_, starts_in_waves ? waves_ : nullptr));
-    field_->acceleration_smoothing = scene_.acceleration_smoothing;
     constexpr int settling_sweeps = 100;  // the spread of n beside slopes has stopped falling
     field_->settle(settling_sweeps, highest_water(scene_));
+    if (scene_.has_flow) field_->path_average.emplace(scene_.flow_smoothing, field_->particles);
     compose_effects();
     balance_.emplace(scene_, solid_, *field_);
     output_.emplace(scene_, solid_, field_->particles);

@@ -12,8 +12,9 @@ void for_each_real_array(Particles& particles, const Visit& visit) {
     visit("x", "m", particles.x), visit("z", "m", particles.z);
     visit("u", "m/s", particles.u), visit("w", "m/s", particles.w);
     visit("pressure", "Pa", particles.pressure);
-    visit("acceleration_x", "m/s2", particles.acceleration_x);
-    visit("acceleration_z", "m/s2", particles.acceleration_z);
+    visit("path_u1", "m/s", particles.path_u[0]), visit("path_w1", "m/s", particles.path_w[0]);
+    visit("path_u2", "m/s", particles.path_u[1]), visit("path_w2", "m/s", particles.path_w[1]);
+    visit("path_u3", "m/s", particles.path_u[2]), visit("path_w3", "m/s", particles.path_w[2]);
     visit("normal_x", "-", particles.normal_x), visit("normal_z", "-", particles.normal_z);
 }
 

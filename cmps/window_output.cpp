@@ -110,7 +110,8 @@ void WindowOutput::read(const Series& series, const NearField& field, std::size_
 }
 
 void WindowOutput::read_flow(const NearField& field, Reading& reading) {
-    flow_->evaluate(field.particles);
+    field.path_average->evaluate(field.particles, field.last_step(), motion_);
+    flow_->evaluate(field.particles, motion_);
     reading.fields[0].assign(flow_->velocity.begin(), flow_->velocity.end());
     reading.fields[1].assign(flow_->acceleration.begin(), flow_->acceleration.end());
     reading.fields[2].assign(flow_->wet.begin(), flow_->wet.end());

@@ -55,6 +55,7 @@ class WindowOutput {
     std::size_t initial_fluid_;
     common::Window window_;
     std::optional<FlowGrid> flow_;
+    WaterMotion motion_;
     std::optional<FacePressure> faces_;
     std::vector<common::Gauge> gauges_;
     std::vector<std::size_t> beyond_at_start_;  // per gauge, particles that stood behind it at the start

@@ -97,8 +97,7 @@ void WallOverflow::put_back(NearField& field) {
         if (lowest == columns || least > -0.5 * l0) return;
         const double x = x0 + (static_cast<double>(lowest) + 0.5) * l0;
         const double z = free_level(particles, x, column_top_[lowest] + 0.95 * l0, 0.95 * l0);
-        particles.add_fluid(x, z, waiting_.back());
-        particles.u.back() = column_u_[lowest], particles.w.back() = column_w_[lowest];
+        particles.add_fluid(x, z, waiting_.back(), column_u_[lowest], column_w_[lowest]);
         waiting_.pop_back();
         column_top_[lowest] = nothing;  // one a column and step
     }
