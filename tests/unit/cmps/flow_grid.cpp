@@ -38,7 +38,8 @@ TEST(FlowGrid, LinearFieldsAreExactUpToTheBedAndTheSurface) {
             const std::size_t node = k * grid.x.size() + i;
             const double x = grid.x[i], z = grid.z[k];
             EXPECT_NEAR(grid.velocity[2 * node], 1 + 2 * x - 3 * z, 1e-5);  // stored as float
-            EXPECT_NEAR(grid.velocity[2 * node + 1], z > 0 ? -1 + x + 4 * z : 0.0, 1e-5);  // not across the bed
+            EXPECT_NEAR(grid.velocity[2 * node + 1], z > 0 ? -1 + x + 4 * z : 0.0,
+                        1e-5);  // not across the bed
             EXPECT_NEAR(grid.acceleration[2 * node], 5 * z, 1e-5);
         }
 }
