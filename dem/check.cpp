@@ -27,7 +27,9 @@ struct StepWork {
 /// one, of the run itself, then a timed stretch. Never longer than the run.
 StepWork work_of_a_step(const Scene& scene) {
     const bool packs = scene.packing.settle;
-    const auto simulation = packs ? build_packing(scene) : build_simulation(scene, true);
+    Scene awake = scene;
+    awake.effects.sleeping = false;
+    const auto simulation = packs ? build_packing(awake) : build_simulation(awake, true);
     const double longest = packs ? scene.packing.longest : scene.time.end;
     simulation->start(0);
     StepWork work;
@@ -54,7 +56,6 @@ StepWork work_of_a_step(const Scene& scene) {
     }
     work.wires = simulation->wires.size();
     work.contacts = simulation->pair_list().contact_count();
-    // A scene whose blocks all fall asleep at once has no steps to time.
     if (spent > 0) work.seconds = spent / std::max(1.0, static_cast<double>(simulation->steps() - before));
     return work;
 }

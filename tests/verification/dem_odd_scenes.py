@@ -1,4 +1,5 @@
 """Small scenes that are odd and legal: they run to their end, and what the run says of itself is true."""
+import json
 import os
 import tempfile
 
@@ -68,6 +69,12 @@ still = "gravity = [0.0, 0.0, 0.0]"
 first = run(scene(1.2, still, block("sphere", (0, 0, 0)), window=1.2), "--flow", flow)
 r = run(scene(2.4, still, block("sphere", (0, 0, 0)), window=1.2), "--flow", flow, "--from", os.path.join(first.folder, "state.h5"))
 check.true("a restart at the rounded end of a window goes on", r.status == 0 and len(r.windows()) == 1 and abs(r.series("/time")[-1] - 2.4) < 1e-9, r.message.strip())
+
+# A flow that is followed and ends early: the run keeps what it has and says so; it is not done.
+with open(os.path.join(flow, "run.json"), "w") as f:
+    json.dump({"schema": "tsunagi.run/1", "stage": "cmps", "status": "done", "windows": 2}, f)
+r = run(scene(3.0, still, block("sphere", (0, 0, 0)), window=1.2), "--flow", flow, "--follow")
+check.true("a followed flow that ends before the time asked for", r.status == 1 and "the flow ended at t = 2.4 s" in r.message and len(r.windows()) == 2, r.message.strip())
 
 # Uniform water that accelerates moves with u = a t: a block as heavy as water goes with it (drag is nought, the force is that
 # of the water it displaces), and a heavy one follows the closed form of (8), (10) and (12) without viscosity.
