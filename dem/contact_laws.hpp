@@ -62,15 +62,25 @@ struct CoulombFriction {
 
     /// `spring`: stored force on the first body (updated); `stiffness_before`: normal stiffness one step ago.
     /// `slip_speed`: velocity of the first body relative to the second, tangential, m/s. `dashpot`: of the
-    /// normal direction, kg/s.
-    TangentialForce force(Vector& spring, double stiffness_before, double stiffness, const Vector& normal,
-                          const Vector& slip_speed, double normal_force, double dashpot, double dt) const {
+    /// normal direction, kg/s. `twist`: angle by which the two bodies have turned about the normal in this
+    /// step, the mean of both: the spring turns with them.
+    // Inlined by word: called once, in the innermost loop.
+    [[gnu::always_inline]] TangentialForce force(Vector& spring, double stiffness_before, double stiffness,
+                                                 const Vector& normal, const Vector& slip_speed,
+                                                 double normal_force, double dashpot, double twist,
+                                                 double dt) const {
         const double tangential_stiffness = stiffness_ratio * stiffness;
         double dissipated = 0;
         const double before = spring.squaredNorm();
         if (before > 0) {
             // Into the new tangent plane: the step's turn is small, so the length lost is of second order.
             spring -= spring.dot(normal) * normal;
+            if (twist != 0) {
+                // Sine and cosine of an angle below a hundredth, to the last digit.
+                const double square = twist * twist, sine = twist * (1 - square / 6),
+                             cosine = 1 - square * (0.5 - square / 24);
+                spring = cosine * spring + sine * normal.cross(spring);
+            }
             const double inverse = 1 / (stiffness * stiffness_before);
             const double growth = stiffness * stiffness * inverse;
             if (growth < 1) spring *= growth;
@@ -98,6 +108,7 @@ struct CoulombFriction {
         return {share * drag, dissipated};
     }
     double ratio() const { return stiffness_ratio; }
+    double coefficient_or_none() const { return coefficient; }
     double energy(const Vector& spring, double stiffness) const {
         return spring.squaredNorm() / (2 * stiffness_ratio * stiffness);
     }
@@ -106,10 +117,11 @@ struct CoulombFriction {
 /// mu = 0.
 struct Frictionless {
     static TangentialForce force(Vector&, double, double, const Vector&, const Vector&, double, double,
-                                 double) {
+                                 double, double) {
         return {Vector::Zero(), 0};
     }
     static double ratio() { return 0; }
+    static double coefficient_or_none() { return 0; }
     static double energy(const Vector&, double) { return 0; }
 };
 

@@ -140,7 +140,25 @@ class PairwiseContacts final : public ContactModel {
         return energy;
     }
 
+    void carry(const Blocks& blocks, const Surroundings& surroundings, const PairList& list, const Pair& pair,
+               bool as_partner, std::vector<CarriedContact>& contacts) const override {
+        std::vector<Touch> touches;
+        find_touches(blocks, surroundings, list, pair, touches);
+        const double radius = reduced_radius(blocks, surroundings, list, pair), side = as_partner ? -1 : 1;
+        const Vector centre =
+            as_partner ? partner_from_block(blocks, surroundings, list, pair) : Vector::Zero();
+        for (const auto& touch : touches) {
+            const double force = law_.force(law_.stiffness(radius, touch.overlap), touch.overlap);
+            const auto same = [&](const Contact& held) { return held.a == touch.a && held.b == touch.b; };
+            const auto held = list.contacts(pair);
+            const auto found = std::find_if(held.begin(), held.end(), same);
+            contacts.push_back({touch.arm - centre, side * touch.normal, force,
+                                found == held.end() ? Vector::Zero() : Vector(side * found->spring)});
+        }
+    }
+
     double tangential_ratio() const override { return friction_.ratio(); }
+    double friction() const override { return friction_.coefficient_or_none(); }
 
     double damping_coefficient(double mass, std::size_t count, double stiffness) const override {
         return damping_scale(mass, count) * std::sqrt(stiffness);
@@ -170,10 +188,15 @@ class PairwiseContacts final : public ContactModel {
         // arm.
         const Vector offset = partner_from_block(blocks, surroundings, list, pair);
         Vector approach = blocks.velocity[pair.block], spin = blocks.angular_velocity[pair.block];
+        Vector mean_turn = 0.5 * dt * spin;
         if (partner_is_block) {
+            mean_turn += 0.5 * dt * blocks.angular_velocity[pair.partner];
             approach += blocks.angular_velocity[pair.partner].cross(offset) - blocks.velocity[pair.partner];
             spin -= blocks.angular_velocity[pair.partner];
         }
+        // Slower than 1e-8 rad/s at 1e-4 s nothing turns that matters: blocks at rest need not turn their
+        // springs.
+        const bool turns = mean_turn.squaredNorm() > 1e-24;
         Vector elastic_force = Vector::Zero(), elastic_torque = Vector::Zero();
         Vector damping_force = Vector::Zero(), damping_torque = Vector::Zero();
         double dissipated = 0, largest_overlap = 0;
@@ -202,7 +225,7 @@ class PairwiseContacts final : public ContactModel {
             const Vector slip_speed = relative - closing_speed * touch.normal;
             const TangentialForce tangential =
                 friction_.force(contact.spring, stiffness_before, stiffness, touch.normal, slip_speed,
-                                normal_force, dashpot, dt);
+                                normal_force, dashpot, turns ? mean_turn.dot(touch.normal) : 0.0, dt);
             const Vector springs = contact.spring - elastic * touch.normal;
             const Vector dashpots = tangential.dashpot - (normal_force - elastic) * touch.normal;
             elastic_force += springs;

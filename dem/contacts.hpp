@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "dem/blocks.hpp"
+#include "dem/effects/reserve.hpp"
 #include "dem/material.hpp"
 #include "dem/pair_list.hpp"
 
@@ -29,8 +30,13 @@ class ContactModel {
     /// Energy stored in normal and tangential springs at the present poses, J.
     virtual double elastic_energy(const Blocks& blocks, const Surroundings& surroundings,
                                   const PairList& list) const = 0;
+    /// Appends the contacts of a touching pair as its block feels them, or its partner.
+    virtual void carry(const Blocks& blocks, const Surroundings& surroundings, const PairList& list,
+                       const Pair& pair, bool as_partner, std::vector<CarriedContact>& contacts) const = 0;
     /// Tangential over normal stiffness; 0 without friction.
     virtual double tangential_ratio() const = 0;
+    /// mu; 0 without friction.
+    virtual double friction() const = 0;
     /// Normal dashpot of one of `count` contacts between two bodies of reduced mass `mass`, kg/s.
     virtual double damping_coefficient(double mass, std::size_t count, double stiffness) const = 0;
 };

@@ -22,13 +22,14 @@ FluidLoads::FluidLoads(const Blocks& blocks, FluidProperties properties,
     : motion_(std::move(water_motion)), properties_(std::move(properties)) {
     is_awake_.assign(blocks.size(), 1);
     resting_.resize(blocks.size());
-    loads_.assign(blocks.size(), {Vector::Zero(), Vector::Zero(), Rotation::Zero(), Vector::Zero(), 0, 0});
-    applied_.assign(blocks.size(), Vector::Zero());
+    loads_.resize(blocks.size());
+    applied_.assign(blocks.size(), {Vector::Zero(), Vector::Zero()});
 }
 
 void FluidLoads::sample(Blocks& blocks, double t, double hold) {
-    // The middle of the time the sample is held: second order in the interval.
-    std::visit([&](auto& water) { water.set_time(t + 0.5 * hold); }, motion_);
+    // The middle of the time the sample is held, water and block: second order in the interval.
+    ahead_ = 0.5 * hold;
+    std::visit([&](auto& water) { water.set_time(t + ahead_); }, motion_);
     for (std::size_t i = 0; i < blocks.size(); ++i)
         if (!blocks.is_fixed[i] && !stays_as_sampled(blocks, i)) sample_block(blocks, i, t);
 }
@@ -36,7 +37,8 @@ void FluidLoads::sample(Blocks& blocks, double t, double hold) {
 void FluidLoads::sample_block(Blocks& blocks, std::size_t i, double t) {
     try {
         loads_[i] = std::visit(
-            [&](const auto& water) { return sample_fluid_load(blocks, i, water, properties_); }, motion_);
+            [&](const auto& water) { return sample_fluid_load(blocks, i, water, properties_, ahead_); },
+            motion_);
     } catch (const std::out_of_range& outside) {
         throw common::RunError(
             fmt::format("t = {:.5f} s: block {} leaves the water that is known: {}; enlarge cmps.flow or set "
@@ -102,16 +104,16 @@ void FluidLoads::awake_changed(const std::vector<std::uint8_t>& is_awake) {
 void FluidLoads::add(Blocks& blocks, std::span<const std::uint32_t> wanted, const std::vector<std::uint8_t>&,
                      double) {
     for (const auto i : wanted) {
-        applied_[i] = loads_[i].force_at(blocks.velocity[i]);
-        blocks.force[i] += applied_[i];
-        blocks.torque[i] += loads_[i].torque;
+        applied_[i] = loads_[i].at(blocks.velocity[i], blocks.angular_velocity[i]);
+        blocks.force[i] += applied_[i].force;
+        blocks.torque[i] += applied_[i].torque;
     }
 }
 
 void FluidLoads::account(const Blocks& blocks, std::span<const std::uint32_t> some, double dt) {
     for (const auto i : some) {
-        const double done =
-            dt * (applied_[i].dot(blocks.velocity[i]) + loads_[i].torque.dot(blocks.angular_velocity[i]));
+        const double done = dt * (applied_[i].force.dot(blocks.velocity[i]) +
+                                  applied_[i].torque.dot(blocks.angular_velocity[i]));
         work += done;
         gross_work += std::abs(done);
     }

@@ -50,6 +50,8 @@ class FluidLoads final : public Load {
     /// Those asleep keep the load of an earlier sample while the water around them has changed little: at
     /// most by how much its force and, over the block's radius, its torque may differ by now, N.
     double uncertainty(std::size_t block) const { return resting_[block].uncertainty; }
+    /// As sampled last.
+    const FluidLoad& load(std::size_t block) const { return loads_[block]; }
     /// Makes the load of one block exact again, for the instant of the last sample().
     void sample_block(Blocks& blocks, std::size_t block, double t);
 
@@ -76,7 +78,8 @@ class FluidLoads final : public Load {
     std::vector<std::uint8_t> is_awake_;
     std::vector<Resting> resting_;
     std::vector<FluidLoad> loads_;
-    std::vector<Vector> applied_;  // force of the last step
+    std::vector<FluidLoad::Wrench> applied_;  // in the last step
+    double ahead_ = 0;                        // half the time a sample is held, s
 };
 
 /// Wires with an end that may move.

@@ -138,9 +138,10 @@ void read_sleep(const Section& dem, Scene& scene) {
                                             Range::positive(), 0.1);
     scene.sleep.rest_displacement =
         scene.element.diameter *
-        sleeping.number("rest_displacement", "d", "farthest point, over rest_time", Range::positive(), 1e-4);
+        sleeping.number("rest_displacement", "d", "farthest point, over rest_time", Range::positive(), 1e-5);
     scene.sleep.wake_load =
-        sleeping.number("wake_load", "-", "change of load that wakes, in weights", Range::positive(), 0.05);
+        sleeping.number("wake_load", "-", "change of load that wakes, of what the block could still take",
+                        {.lowest = 0, .highest = 0.5, .lowest_is_open = true}, 0.1);
 }
 
 /// Blocks lighter than the water they push aside would rise for ever instead of settling.

@@ -227,6 +227,7 @@ DataFile to_data_file(const Snapshot& snapshot) {
         file.datasets["/sleeping/force"] = real64("N", {count, 3}, flat(memory.sleeping->force));
         file.datasets["/sleeping/torque"] = real64("N m", {count, 3}, flat(memory.sleeping->torque));
         file.datasets["/sleeping/since"] = real64("s", {count}, memory.sleeping->since);
+        file.datasets["/sleeping/wake_force"] = real64("N", {count}, memory.sleeping->wake_force);
     }
     return file;
 }
@@ -274,6 +275,11 @@ Snapshot snapshot_from(const DataFile& file) {
         sleeping.force = vectors_from(file.at("/sleeping/force"));
         sleeping.torque = vectors_from(file.at("/sleeping/torque"));
         sleeping.since = file.at("/sleeping/since").doubles();
+        // A state from before it was kept: whoever sleeps wakes at any change.
+        if (file.has("/sleeping/wake_force"))
+            sleeping.wake_force = file.at("/sleeping/wake_force").doubles();
+        else
+            sleeping.wake_force.assign(sleeping.since.size(), 0);
         memory.sleeping = std::move(sleeping);
     }
     return snapshot;

@@ -25,6 +25,9 @@ Simulation::Simulation(Blocks placed, Surroundings surroundings, std::unique_ptr
         if (!blocks.is_fixed[i]) movable_.push_back(i);
     damping_force_.assign(blocks.size(), Vector::Zero());
     damping_torque_.assign(blocks.size(), Vector::Zero());
+    is_movable_.assign(blocks.size(), 0);
+    for (const auto i : movable_) is_movable_[i] = 1;
+    change_.resize(blocks.size());
     find_awake();
 }
 
@@ -36,15 +39,13 @@ void Simulation::add_water(FluidProperties properties, std::variant<UniformWater
 
 void Simulation::mount_wires(Wires mounted) {
     wires = std::move(mounted);
+    pull_at_look_.assign(wires.size(), Vector::Zero());
     link_loads_.push_back(std::make_unique<WireLoads>(wires));
     link_loads_.back()->awake_changed(is_awake_);
 }
 
 void Simulation::add_sleeping(const SleepRules& rules) {
-    std::vector<double> weights;
-    for (std::size_t i = 0; i < blocks.size(); ++i)
-        weights.push_back(blocks.shape_of(i).mass * std::max(gravity_.norm(), 1e-3));
-    sleeping_ = std::make_unique<Sleeping>(blocks, rules, weights);
+    sleeping_ = std::make_unique<Sleeping>(blocks, rules);
 }
 
 void Simulation::start(double t) {
@@ -80,14 +81,10 @@ void Simulation::advance(double target) {
             const double hold = dt * static_cast<double>(std::min(every, count - k));
             for (const auto& load : own_loads_)
                 load->sample(blocks, begin + dt * static_cast<double>(k), hold);
-            if (sleeping_) {
-                sum_all_forces();  // of those asleep too; contacts are those of the last step
-                if (sample_doubtful(begin + dt * static_cast<double>(k))) sum_all_forces();
-                tension_at_look_ = wires.tension;
-                bool changed = false;
-                dissipated_ += sleeping_->look(blocks, time_, changed);
-                if (changed) find_awake();
-            }
+            // With the new sample, and of those asleep too; contacts are those of the last step.
+            if (sleeping_ || water_ != nullptr) sum_all_forces();
+            if (water_ != nullptr) require_drag_within(dt);
+            if (sleeping_) look_for_sleepers(begin + dt * static_cast<double>(k));
         }
         if (awake_.empty()) {  // all asleep: only the next look can change that
             if (rules_.cross_still) k = std::min(count, (k / every + 1) * every) - 1;
@@ -116,47 +113,87 @@ void Simulation::step(double dt, double t, bool is_first, bool is_last) {
     time_ = t;
     if (pair_list_.update()) find_active();
     for (const auto& load : link_loads_) load->add(blocks, awake_, is_awake_, time_);
-    if (sleeping_) note_jerks();
+    for (const auto i : bordering_) change_[i] = {};
+    if (!bordering_.empty()) note_pulls();
     add_contacts(dt, is_last);
     ++steps_;
     awake_block_steps_ += awake_.size();
-    if (!disturbed_.empty()) wake_disturbed(dt, is_last);
+    if (!bordering_.empty()) wake_disturbed(dt, is_last);
 }
 
-/// Sleepers that a wire pulls at otherwise than at the last look.
-void Simulation::note_jerks() {
+/// Who falls asleep and who wakes; blocks' sums are those of all, with the water sampled at t.
+void Simulation::look_for_sleepers(double t) {
+    if (sample_doubtful(t)) sum_all_forces();
+    bool changed = false;
+    dissipated_ += sleeping_->look(
+        blocks, time_, [this](std::size_t i) { return reserve(i); }, changed);
+    if (changed) find_awake();
+    if (awake_.empty() || awake_.size() == movable_.size()) return;
+    for (std::size_t k = 0; k < wires.size(); ++k)
+        if (!is_awake_[wires.block_a[k]] || !is_awake_[wires.block_b[k]])
+            pull_at_look_[k] = wires.pull_of(blocks, k);
+}
+
+/// What a block at rest could still take, N.
+double Simulation::reserve(std::size_t block) const {
+    std::vector<CarriedContact> contacts;
+    for (const auto entry : pair_list_.pairs_of(block)) {
+        const Pair& pair = pair_list_.pairs()[entry >> 1];
+        if (pair.contacts > 0)
+            contact_model_->carry(blocks, surroundings_, pair_list_, pair, (entry & 1) != 0, contacts);
+    }
+    const double gravity = gravity_.norm();
+    if (gravity == 0) return 0;
+    return reserve_of(contacts, contact_model_->friction(), -gravity_ / gravity,
+                      blocks.shape_of(block).radius);
+}
+
+/// What wires pull at sleepers otherwise than at the last look.
+void Simulation::note_pulls() {
     for (const auto k : wires_to_sleepers_) {
-        const double change = std::abs(wires.tension[k] - tension_at_look_[k]);
-        for (const auto i : {wires.block_a[k], wires.block_b[k]})
-            if (sleeping_->is_asleep(i) && change > sleeping_->wake_force(i)) disturbed_.push_back(i);
+        const Vector change = wires.pull_of(blocks, k) - pull_at_look_[k];
+        const auto a = wires.block_a[k], b = wires.block_b[k];
+        if (!is_awake_[a]) {
+            change_[a].force += change;
+            change_[a].torque += blocks.arm(a, wires.sphere_a[k]).cross(change);
+        }
+        if (!is_awake_[b]) {
+            change_[b].force -= change;
+            change_[b].torque -= blocks.arm(b, wires.sphere_b[k]).cross(change);
+        }
     }
 }
 
-/// Sleepers that a contact pushes otherwise than at the last look; their sums of that look take up the
-/// change.
-void Simulation::note_hit(const Pair& pair, const PairForces& now, const PairForces& at_look) {
-    const bool is_between_blocks = pair_list_.is_block(pair.partner);
-    const bool is_on_block = sleeping_->is_asleep(pair.block),
-               is_on_partner = is_between_blocks && sleeping_->is_asleep(pair.partner);
-    if (!is_on_block && !is_on_partner) return;
-    PairForces change = now;
-    change.force -= at_look.force;
-    change.torque_on_block -= at_look.torque_on_block;
-    change.damping_force -= at_look.damping_force;
-    change.damping_torque -= at_look.damping_torque;
-    const auto is_hit = [&](std::uint32_t i) { return change.force.norm() > sleeping_->wake_force(i); };
-    const bool wakes_block = is_on_block && is_hit(pair.block),
-               wakes_partner = is_on_partner && is_hit(pair.partner);
-    if (wakes_block) disturbed_.push_back(pair.block);
-    if (wakes_partner) disturbed_.push_back(pair.partner);
-    add_pair(pair, change, wakes_block, wakes_partner);
+/// What a contact does to a sleeper otherwise than at the last look.
+void Simulation::note_change(const Pair& pair, const PairForces& now, const PairForces& at_look) {
+    if (!is_awake_[pair.block]) {
+        Change& change = change_[pair.block];
+        change.force += now.force - at_look.force;
+        change.torque += now.torque_on_block - at_look.torque_on_block;
+        change.damping_force += now.damping_force;
+        change.damping_torque += now.damping_torque;
+    }
+    if (pair_list_.is_block(pair.partner) && !is_awake_[pair.partner]) {
+        Change& change = change_[pair.partner];
+        change.force -= now.force - at_look.force;
+        change.torque += now.offset.cross(now.force) - now.torque_on_block -
+                         at_look.offset.cross(at_look.force) + at_look.torque_on_block;
+        change.damping_force -= now.damping_force;
+        change.damping_torque += now.offset.cross(now.damping_force) - now.damping_torque;
+    }
 }
 
-/// They end this step with the others and take part from the next one on.
+/// Sleepers whose sums have changed enough end this step with the others and take part from the next one on.
 void Simulation::wake_disturbed(double dt, bool is_last) {
-    std::sort(disturbed_.begin(), disturbed_.end());
-    disturbed_.erase(std::unique(disturbed_.begin(), disturbed_.end()), disturbed_.end());
+    disturbed_.clear();
+    for (const auto i : bordering_)
+        if (sleeping_->is_disturbed(blocks, i, change_[i].force, change_[i].torque)) disturbed_.push_back(i);
+    if (disturbed_.empty()) return;
     for (const auto i : disturbed_) {
+        blocks.force[i] += change_[i].force;
+        blocks.torque[i] += change_[i].torque;
+        damping_force_[i] = change_[i].damping_force;
+        damping_torque_[i] = change_[i].damping_torque;
         sleeping_->wake(blocks, i, time_);
         kick_half(blocks, i, 0.5 * dt);
         blocks.update_angular_velocity(i);
@@ -164,7 +201,6 @@ void Simulation::wake_disturbed(double dt, bool is_last) {
     }
     find_awake();
     if (!is_last) begin_step(disturbed_, dt, time_ + dt);
-    disturbed_.clear();
 }
 
 /// Blocks move, and the sums of what acts on them at t begin with all but contacts and links.
@@ -207,9 +243,11 @@ void Simulation::add_contacts(double dt, bool is_last) {
         contact_model_->evaluate(blocks, surroundings_, pair_list_, some, dt, portion_);
         for (std::size_t k = 0; k < some.size(); ++k) {
             const Pair& pair = pair_list_.pairs()[some[k]];
-            if (pair.contacts == 0) continue;
+            const bool is_touching = pair.contacts > 0;
+            if (!bordering_.empty())
+                note_change(pair, is_touching ? portion_[k] : PairForces{}, pair_list_.last(some[k]));
+            if (!is_touching) continue;
             const PairForces& forces = portion_[k];
-            if (sleeping_) note_hit(pair, forces, pair_list_.last(some[k]));
             add_pair(pair, forces, is_awake_[pair.block],
                      pair_list_.is_block(pair.partner) && is_awake_[pair.partner]);
             dissipated_ += forces.dissipated;
@@ -276,16 +314,17 @@ void Simulation::finish_step(std::span<const std::uint32_t> some, double dt, boo
 
 /// The forces on all blocks, sleepers too, from the contacts as they were kept last.
 void Simulation::sum_all_forces() {
-    std::vector<std::uint8_t> is_movable(blocks.size(), 0);
-    for (const auto i : movable_) is_movable[i] = 1;
     begin_sums(movable_);
-    for (const auto& load : own_loads_) load->add(blocks, movable_, is_movable, time_);
-    for (const auto& load : link_loads_) load->add(blocks, movable_, is_movable, time_);
+    for (const auto& load : own_loads_) load->add(blocks, movable_, is_movable_, time_);
+    for (const auto& load : link_loads_) load->add(blocks, movable_, is_movable_, time_);
     for (std::size_t k = 0; k < pair_list_.pairs().size(); ++k) {
         const Pair& pair = pair_list_.pairs()[k];
+        PairForces& last = pair_list_.last(k);
         if (pair.contacts > 0)
-            add_pair(pair, pair_list_.last(k), is_movable[pair.block],
-                     pair_list_.is_block(pair.partner) && is_movable[pair.partner]);
+            add_pair(pair, last, is_movable_[pair.block],
+                     pair_list_.is_block(pair.partner) && is_movable_[pair.partner]);
+        else if (!last.force.isZero(0))
+            last = {};  // they parted: when they touch again, this is no part of the sums
     }
 }
 
@@ -322,7 +361,8 @@ void Simulation::check_values() const {
         if (!blocks.position[i].allFinite() || !blocks.velocity[i].allFinite() ||
             !blocks.orientation[i].coeffs().allFinite() || !blocks.angular_momentum[i].allFinite())
             throw common::RunError(
-                fmt::format("t = {:.5f} s: the motion of block {} is no longer finite", time_, i + 1));
+                fmt::format("t = {:.5f} s: the motion of block {} is no longer finite; shorten dem.time_step",
+                            time_, i + 1));
     // Below a mound that was to hold it, a block would fall for ever.
     if (gravity_.norm() == 0) return;
     for (const auto& plane : surroundings_.planes)
@@ -346,7 +386,7 @@ void Simulation::find_awake() {
     for (const auto& load : own_loads_) load->awake_changed(is_awake_);
     for (const auto& load : link_loads_) load->awake_changed(is_awake_);
     wires_to_sleepers_.clear();
-    if (sleeping_)
+    if (awake_.size() < movable_.size())
         for (std::uint32_t k = 0; k < wires.size(); ++k) {
             const auto a = wires.block_a[k], b = wires.block_b[k];
             if ((is_awake_[a] && sleeping_->is_asleep(b)) || (is_awake_[b] && sleeping_->is_asleep(a)))
@@ -357,12 +397,24 @@ void Simulation::find_awake() {
 
 void Simulation::find_active() {
     active_.clear();
+    bordering_.clear();
+    const bool anybody_asleep = awake_.size() < movable_.size();
     for (std::uint32_t k = 0; k < pair_list_.pairs().size(); ++k) {
         const Pair& pair = pair_list_.pairs()[k];
         if (pair.candidates == 0) continue;
         if (is_awake_[pair.block] || (pair_list_.is_block(pair.partner) && is_awake_[pair.partner]))
             active_.push_back(k);
+        else
+            continue;
+        if (!anybody_asleep) continue;
+        if (is_movable_[pair.block] && !is_awake_[pair.block]) bordering_.push_back(pair.block);
+        if (pair_list_.is_block(pair.partner) && is_movable_[pair.partner] && !is_awake_[pair.partner])
+            bordering_.push_back(pair.partner);
     }
+    for (const auto k : wires_to_sleepers_)
+        bordering_.push_back(is_awake_[wires.block_a[k]] ? wires.block_b[k] : wires.block_a[k]);
+    std::sort(bordering_.begin(), bordering_.end());
+    bordering_.erase(std::unique(bordering_.begin(), bordering_.end()), bordering_.end());
 }
 
 EnergyBudget Simulation::energy() const {

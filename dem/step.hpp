@@ -98,15 +98,18 @@ class Simulation {
     void add_contacts(double dt, bool is_last);
     void add_pair(const Pair& pair, const PairForces& forces, bool to_block, bool to_partner);
     double damping_power_of(std::uint32_t block) const;
-    void note_jerks();
-    void note_hit(const Pair& pair, const PairForces& now, const PairForces& at_look);
+    void note_pulls();
+    void note_change(const Pair& pair, const PairForces& now, const PairForces& at_look);
     void wake_disturbed(double dt, bool is_last);
+    void look_for_sleepers(double t);
+    double reserve(std::size_t block) const;
     void finish_step(std::span<const std::uint32_t> some, double dt, bool is_last);
     void sum_all_forces();
     bool sample_doubtful(double t);
     void note_overlap(const Pair& pair, double overlap);
     void check_values() const;
     void note_kinetic_energy();
+    void require_drag_within(double dt) const;
     void find_awake();
     void find_active();
 
@@ -119,11 +122,17 @@ class Simulation {
     std::vector<std::unique_ptr<Load>> link_loads_;  ///< act between blocks
     FluidLoads* water_ = nullptr;
     std::unique_ptr<Sleeping> sleeping_;
-    std::vector<std::uint32_t> movable_, awake_;    ///< blocks
-    std::vector<std::uint32_t> disturbed_;          ///< sleepers to wake at the end of the step at hand
-    std::vector<std::uint32_t> wires_to_sleepers_;  ///< with a block awake at the other end
-    std::vector<double> tension_at_look_;           ///< of all wires, N
-    std::vector<std::uint8_t> is_awake_;
+    std::vector<std::uint32_t> movable_, awake_;  ///< blocks
+    std::vector<std::uint8_t> is_awake_, is_movable_;
+    /// How the sums of a sleeper differ in the step at hand from those of the last look.
+    struct Change {
+        Vector force{0, 0, 0}, torque{0, 0, 0};                  // of all
+        Vector damping_force{0, 0, 0}, damping_torque{0, 0, 0};  // the dashpots' whole share
+    };
+    std::vector<std::uint32_t> bordering_, disturbed_;  ///< sleepers next to blocks awake; those to wake now
+    std::vector<Change> change_;                        ///< of all blocks, kept for those bordering
+    std::vector<std::uint32_t> wires_to_sleepers_;      ///< with a block awake at the other end
+    std::vector<Vector> pull_at_look_;                  ///< of all wires with a sleeper, N
     std::vector<Vector> damping_force_, damping_torque_;  ///< the dashpots' share of the sums
     std::vector<std::uint32_t> active_;                   ///< pairs that may touch, with a block awake
     std::vector<PairForces> portion_;                     ///< of the pairs at hand

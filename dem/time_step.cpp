@@ -1,13 +1,16 @@
 /// The largest stable time step at the present contacts.
 ///
-/// For each block the springs and dashpots of its contacts and wires make a 6 x 6 stiffness and a 6 x 6
-/// damping matrix. With the largest eigenvalues k and c of either over the mass matrix (doubled where the
-/// partner moves as well, the bound of Gershgorin), velocity Verlet with velocities half a step back is
-/// stable while k dt^2 + 2 c dt < 4.
+/// For each block the springs and dashpots of its contacts and wires make a 6 x 6 stiffness and, with the
+/// slope of the water's drag, a 6 x 6 damping matrix. With the largest eigenvalues k and c of either over the
+/// mass matrix (doubled where the partner moves as well, the bound of Gershgorin), velocity Verlet with
+/// velocities half a step back is stable while k dt^2 + 2 c dt < 4.
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 
+#include "common/errors.hpp"
 #include "dem/step.hpp"
 
 namespace dem {
@@ -34,7 +37,41 @@ void add_spring(Matrix6& matrix, const Vector& arm, const Vector& direction, dou
     matrix += map.transpose() * spring * map;
 }
 
+/// The slope of the water's force and torque over the mass.
+Matrix6 drag_over_mass(const FluidLoad& load, double inverse_root_mass,
+                       const Rotation& inverse_root_inertia) {
+    Matrix6 drag;
+    const Rotation coupling = inverse_root_inertia * load.coupling * inverse_root_mass;
+    drag << load.drag_slope * inverse_root_mass * inverse_root_mass, coupling.transpose(), coupling,
+        inverse_root_inertia * load.spin_slope * inverse_root_inertia;
+    return drag;
+}
+
 }  // namespace
+
+/// Throws RunError where the drag of the water alone is too stiff for steps of dt: it would go to infinity
+/// within a few of them.
+void Simulation::require_drag_within(double dt) const {
+    for (const auto i : awake_) {
+        const FluidLoad& load = water_->load(i);
+        // No eigenvalue is larger than the trace.
+        const double mass = blocks.mass(i);
+        const double bound =
+            load.drag_slope.trace() / mass + load.spin_slope.trace() / blocks.inertia(i).minCoeff();
+        if (!(dt * bound > 2)) continue;
+        const Rotation& turn = blocks.rotation[i];
+        const Rotation inverse_root_inertia =
+            turn * blocks.inertia(i).cwiseSqrt().cwiseInverse().asDiagonal() * turn.transpose();
+        const double largest =
+            largest_eigenvalue(drag_over_mass(load, 1 / std::sqrt(mass), inverse_root_inertia));
+        if (dt * largest > 2)
+            throw common::RunError(
+                fmt::format("t = {:.5f} s: the time step of {:.2g} s is past the limit of {:.2g} s that the "
+                            "water's drag sets "
+                            "on block {}; shorten dem.time_step",
+                            time_, dt, 2 / largest, i + 1));
+    }
+}
 
 double Simulation::stable_time_step(bool sleepers_too) const {
     const std::vector<std::uint32_t>& judged = sleepers_too ? movable_ : awake_;
@@ -91,6 +128,10 @@ double Simulation::stable_time_step(bool sleepers_too) const {
             const Vector arm = blocks.arm(i, wires.block_a[w] == i ? wires.sphere_a[w] : wires.sphere_b[w]);
             add_spring(stiffness, arm, direction, 2 * wires.stiffness[w], 0, inverse_root_mass,
                        inverse_root_inertia);
+        }
+        if (water_ != nullptr && water_->load(i).wet > 0) {
+            any = true;
+            damping += drag_over_mass(water_->load(i), inverse_root_mass, inverse_root_inertia);
         }
         if (!any) continue;
         const double k = largest_eigenvalue(stiffness), c = largest_eigenvalue(damping);

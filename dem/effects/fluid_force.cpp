@@ -1,6 +1,8 @@
 #include "dem/effects/fluid_force.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace dem {
 
@@ -19,46 +21,166 @@ SphereFactors factors_of(const Shape& shape, const FluidProperties& properties) 
             .viscous = 24 * water.viscosity / properties.element.diameter};
 }
 
+/// A vector of every sphere of a block, an array for each component.
+struct Column {
+    std::vector<double> x, y, z;
+
+    void resize(std::size_t count) {
+        for (auto* part : {&x, &y, &z}) part->resize(count);
+    }
+    void set(std::size_t k, const Vector& value) {
+        x[k] = value.x();
+        y[k] = value.y();
+        z[k] = value.z();
+    }
+};
+
+/// The spheres of a block in the water. Sums over them run four spheres at a time.
+struct Spheres {
+    Column arm, relative, about, force;          // arm; u_r; arm x u_r; of the water's motion, then of all
+    std::vector<double> wet, slope, steepening;  // slope s and steepening c: dF/du_r = s + c u_r u_r^T
+
+    void resize(std::size_t count) {
+        for (auto* column : {&arm, &relative, &about, &force}) column->resize(count);
+        for (auto* part : {&wet, &slope, &steepening}) part->resize(count);
+    }
+    std::size_t size() const { return wet.size(); }
+};
+
+/// Sum of weight * a * a^T.
+Rotation weighted_squares(const std::vector<double>& weight, const Column& a) {
+    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+    const std::size_t count = weight.size();
+#pragma omp simd reduction(+ : xx, xy, xz, yy, yz, zz)
+    for (std::size_t k = 0; k < count; ++k) {
+        const double x = weight[k] * a.x[k], y = weight[k] * a.y[k], z = weight[k] * a.z[k];
+        xx += x * a.x[k];
+        xy += x * a.y[k];
+        xz += x * a.z[k];
+        yy += y * a.y[k];
+        yz += y * a.z[k];
+        zz += z * a.z[k];
+    }
+    Rotation sum;
+    sum << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+    return sum;
+}
+
+/// Sum of weight * a * b^T.
+Rotation weighted_products(const std::vector<double>& weight, const Column& a, const Column& b) {
+    double xx = 0, xy = 0, xz = 0, yx = 0, yy = 0, yz = 0, zx = 0, zy = 0, zz = 0;
+    const std::size_t count = weight.size();
+#pragma omp simd reduction(+ : xx, xy, xz, yx, yy, yz, zx, zy, zz)
+    for (std::size_t k = 0; k < count; ++k) {
+        const double x = weight[k] * a.x[k], y = weight[k] * a.y[k], z = weight[k] * a.z[k];
+        xx += x * b.x[k];
+        xy += x * b.y[k];
+        xz += x * b.z[k];
+        yx += y * b.x[k];
+        yy += y * b.y[k];
+        yz += y * b.z[k];
+        zx += z * b.x[k];
+        zy += z * b.y[k];
+        zz += z * b.z[k];
+    }
+    Rotation sum;
+    sum << xx, xy, xz, yx, yy, yz, zx, zy, zz;
+    return sum;
+}
+
+/// Drag of each sphere, eqs. (10) and (12), its slopes, and the sums of force and torque.
+void add_drag(Spheres& spheres, double drag, double drag_coefficient, double viscous, FluidLoad& load) {
+    double fx = 0, fy = 0, fz = 0, tx = 0, ty = 0, tz = 0;
+    auto& [arm, relative, about, force, wet, slope, steepening] = spheres;
+    const std::size_t count = spheres.size();
+#pragma omp simd reduction(+ : fx, fy, fz, tx, ty, tz)
+    for (std::size_t k = 0; k < count; ++k) {
+        const double rx = relative.x[k], ry = relative.y[k], rz = relative.z[k];
+        const double ax = arm.x[k], ay = arm.y[k], az = arm.z[k];
+        const double speed = std::sqrt(rx * rx + ry * ry + rz * rz);
+        // C_D |u_r| of eq. (12), finite at zero relative speed.
+        slope[k] = drag * wet[k] * (drag_coefficient * speed + viscous);
+        steepening[k] = drag * wet[k] * drag_coefficient / std::max(speed, 1e-100);
+        about.x[k] = ay * rz - az * ry;
+        about.y[k] = az * rx - ax * rz;
+        about.z[k] = ax * ry - ay * rx;
+        const double x = slope[k] * rx + force.x[k], y = slope[k] * ry + force.y[k],
+                     z = slope[k] * rz + force.z[k];
+        fx += x;
+        fy += y;
+        fz += z;
+        tx += ay * z - az * y;
+        ty += az * x - ax * z;
+        tz += ax * y - ay * x;
+    }
+    load.force = Vector(fx, fy, fz);
+    load.torque = Vector(tx, ty, tz);
+}
+
+/// The Jacobian: with J the map from the block's velocity and spin to a sphere's, the sum of J^T (s + c u_r
+/// u_r^T) J.
+void add_slopes(const Spheres& spheres, FluidLoad& load) {
+    double isotropic = 0, x = 0, y = 0, z = 0;
+    const auto& slope = spheres.slope;
+    const Column& arm = spheres.arm;
+    const std::size_t count = spheres.size();
+#pragma omp simd reduction(+ : isotropic, x, y, z)
+    for (std::size_t k = 0; k < count; ++k) {
+        isotropic += slope[k];
+        x += slope[k] * arm.x[k];
+        y += slope[k] * arm.y[k];
+        z += slope[k] * arm.z[k];
+    }
+    load.drag_slope = weighted_squares(spheres.steepening, spheres.relative);
+    load.drag_slope.diagonal().array() += isotropic;
+    load.coupling << 0, -z, y, z, 0, -x, -y, x, 0;
+    load.coupling += weighted_products(spheres.steepening, spheres.about, spheres.relative);
+    const Rotation moments = weighted_squares(slope, arm);
+    load.spin_slope = weighted_squares(spheres.steepening, spheres.about) - moments;
+    load.spin_slope.diagonal().array() += moments.trace();
+}
+
 }  // namespace
 
 template <class Motion>
 FluidLoad sample_fluid_load(const Blocks& blocks, std::size_t block, const Motion& motion,
-                            const FluidProperties& properties) {
+                            const FluidProperties& properties, double ahead) {
     const Shape& shape = blocks.shape_of(block);
+    const Vector& velocity = blocks.velocity[block];
+    const Vector& spin = blocks.angular_velocity[block];
+    const Vector centre = blocks.position[block] + ahead * velocity, half = 0.5 * ahead * spin;
+    const Rotation turn =
+        Quaternion(1, half.x(), half.y(), half.z()).normalized().toRotationMatrix() * blocks.rotation[block];
     const Water& water = properties.water;
     const auto [volume, drag, inertia, viscous] = factors_of(shape, properties);
     const Vector buoyancy = -water.density * volume * properties.gravity;
 
-    FluidLoad load{Vector::Zero(), Vector::Zero(), Rotation::Zero(), blocks.velocity[block], 0, 0};
-    double isotropic = 0;
-    for (const auto& sphere : shape.spheres) {
-        const Vector arm = blocks.rotation[block] * sphere;
-        const WaterSample sample = motion.at(blocks.position[block] + arm);
-        if (sample.wet <= 0) continue;
-        const Vector relative =
-            sample.velocity - blocks.velocity[block] - blocks.angular_velocity[block].cross(arm);
-        const double speed = relative.norm();
-        // C_D |u_r| of eq. (12), finite at zero relative speed.
-        const double slope = drag * sample.wet * (water.drag_coefficient * speed + viscous);
-        const Vector force =
-            slope * relative + sample.wet * (inertia * sample.acceleration + buoyancy);  // (10), (11)
-        load.force += force;
-        load.torque += arm.cross(force);
+    FluidLoad load{.velocity = velocity, .spin = spin};
+    thread_local Spheres spheres;
+    const std::size_t count = shape.spheres.size();
+    spheres.resize(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        const Vector arm = turn * shape.spheres[k];
+        const WaterSample sample = motion.at(centre + arm);
+        spheres.arm.set(k, arm);
+        spheres.relative.set(k, sample.velocity - velocity - spin.cross(arm));
+        spheres.force.set(k, sample.wet * (inertia * sample.acceleration + buoyancy));  // (10), (11)
+        spheres.wet[k] = sample.wet;
         load.wet += sample.wet;
         load.water_speed += sample.wet * sample.velocity.norm();
-        isotropic += slope;
-        if (speed > 0)
-            load.drag_slope +=
-                (drag * sample.wet * water.drag_coefficient / speed * relative) * relative.transpose();
     }
-    load.drag_slope.diagonal().array() += isotropic;
-    if (load.wet > 0) load.water_speed /= load.wet;
-    load.wet /= static_cast<double>(shape.spheres.size());
+    if (load.wet <= 0) return load;
+    add_drag(spheres, drag, water.drag_coefficient, viscous, load);
+    add_slopes(spheres, load);
+    load.water_speed /= load.wet;
+    load.wet /= static_cast<double>(count);
     return load;
 }
 
-template FluidLoad sample_fluid_load(const Blocks&, std::size_t, const UniformWater&, const FluidProperties&);
-template FluidLoad sample_fluid_load(const Blocks&, std::size_t, const FlowGrid&, const FluidProperties&);
+template FluidLoad sample_fluid_load(const Blocks&, std::size_t, const UniformWater&, const FluidProperties&,
+                                     double);
+template FluidLoad sample_fluid_load(const Blocks&, std::size_t, const FlowGrid&, const FluidProperties&,
+                                     double);
 
 double largest_load_change(const Shape& shape, const FlowGrid::Change& change,
                            const FluidProperties& properties) {

@@ -2,8 +2,11 @@
 ///
 /// F_f of eq. (10) is unreadable in the scan of the paper; the form here is the one Gotoh's group uses
 /// throughout its movable-bed work. The water changes over 1e-2 s, contacts over 1e-4 s: every sphere is
-/// sampled at an interval of its own, and in between the force follows the block's velocity to first order
-/// (the Jacobian of the drag).
+/// sampled at an interval of its own, where the block will be in the middle of it, and in between force and
+/// torque follow the block's velocity and spin to first order (the Jacobian of the drag): second order in the
+/// interval. A block that bobs at the surface gains nothing from it: to take the force at x + v h/2 for the
+/// interval h is a map that keeps areas. Stable for h times the Jacobian over the mass below 2, h being the
+/// time step (stable_time_step()); the interval only decides how exact it is.
 #pragma once
 
 #include <memory>
@@ -15,17 +18,26 @@
 
 namespace dem {
 
-/// Sum of the water's force on one block, and how it changes with the block's velocity.
+/// Sum of the water's force on one block, and how it changes with the block's motion.
 struct FluidLoad {
-    Vector force;         ///< N
-    Vector torque;        ///< about the block's centre, N m
-    Rotation drag_slope;  ///< -dF/d(velocity), kg/s
-    Vector velocity;      ///< of the block when sampled, m/s
-    double wet;           ///< mean over the block's spheres
-    double water_speed;   ///< mean over the block's wet spheres, m/s
+    Vector force{0, 0, 0};                   ///< N
+    Vector torque{0, 0, 0};                  ///< about the block's centre, N m
+    Rotation drag_slope = Rotation::Zero();  ///< -dF/d(velocity), kg/s
+    Rotation coupling = Rotation::Zero();    ///< -dT/d(velocity), kg m/s; transposed -dF/d(spin)
+    Rotation spin_slope = Rotation::Zero();  ///< -dT/d(spin), kg m^2/s
+    Vector velocity{0, 0, 0};                ///< of the block when sampled, m/s
+    Vector spin{0, 0, 0};                    ///< rad/s
+    double wet = 0;                          ///< mean over the block's spheres
+    double water_speed = 0;                  ///< mean over the block's wet spheres, m/s
 
-    Vector force_at(const Vector& present_velocity) const {
-        return force - drag_slope * (present_velocity - velocity);
+    /// Force and torque at the present velocity and spin.
+    struct Wrench {
+        Vector force, torque;
+    };
+    Wrench at(const Vector& present_velocity, const Vector& present_spin) const {
+        const Vector faster = present_velocity - velocity, turning = present_spin - spin;
+        return {force - drag_slope * faster - coupling.transpose() * turning,
+                torque - coupling * faster - spin_slope * turning};
     }
 };
 
@@ -35,10 +47,11 @@ struct FluidProperties {
     Vector gravity{0, 0, -9.81};
 };
 
-/// Samples all spheres of a block in `motion` (UniformWater or FlowGrid) and sums their forces.
+/// Samples all spheres of a block in `motion` (UniformWater or FlowGrid), where they will be in `ahead`
+/// seconds as the block moves now, and sums their forces.
 template <class Motion>
 FluidLoad sample_fluid_load(const Blocks& blocks, std::size_t block, const Motion& motion,
-                            const FluidProperties& properties);
+                            const FluidProperties& properties, double ahead);
 
 /// Largest change of the force on any sphere of a block at rest while the water around it changes by no more
 /// than `change` and its wet fraction stays, summed over the spheres, N.

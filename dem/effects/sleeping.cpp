@@ -4,8 +4,7 @@
 
 namespace dem {
 
-Sleeping::Sleeping(const Blocks& blocks, const SleepRules& rules, const std::vector<double>& weights)
-    : rules_(rules), weight_(weights) {
+Sleeping::Sleeping(const Blocks& blocks, const SleepRules& rules) : rules_(rules) {
     wake_all(blocks, 0);
 }
 
@@ -16,6 +15,7 @@ void Sleeping::wake_all(const Blocks& blocks, double t) {
     force_ = blocks.force;
     torque_ = blocks.torque;
     since_.assign(blocks.size(), t);
+    wake_force_.assign(blocks.size(), 0);
 }
 
 void Sleeping::drop_anchor(const Blocks& blocks, std::size_t block, double t) {
@@ -31,41 +31,55 @@ void Sleeping::wake(const Blocks& blocks, std::size_t block, double t) {
     drop_anchor(blocks, block, t);
 }
 
-double Sleeping::load_change(const Blocks& blocks, std::size_t block) const {
-    return (blocks.force[block] - force_[block]).norm() +
-           (blocks.torque[block] - torque_[block]).norm() / blocks.shape_of(block).radius;
+double Sleeping::load_change(const Blocks& blocks, std::size_t block, const Vector& more_force,
+                             const Vector& more_torque) const {
+    return (blocks.force[block] + more_force - force_[block]).norm() +
+           (blocks.torque[block] + more_torque - torque_[block]).norm() / blocks.shape_of(block).radius;
+}
+
+bool Sleeping::has_moved(const Blocks& blocks, std::size_t block) const {
+    const double turned = (orientation_[block].conjugate() * blocks.orientation[block]).vec().norm();
+    return (blocks.position[block] - position_[block]).norm() + 2 * blocks.shape_of(block).radius * turned >
+           rules_.rest_displacement;
 }
 
 bool Sleeping::may_wake(const Blocks& blocks, std::size_t block, double uncertainty) const {
     constexpr double rounding = 1e-9;  // far above that of the sums, far below anything that matters
-    return is_asleep(block) &&
-           load_change(blocks, block) + uncertainty > (1 - rounding) * rules_.wake_load * weight_[block];
+    return is_asleep(block) && load_change(blocks, block, Vector::Zero(), Vector::Zero()) + uncertainty >
+                                   (1 - rounding) * wake_force_[block];
 }
 
-double Sleeping::look(Blocks& blocks, double t, bool& changed) {
+double Sleeping::look(Blocks& blocks, double t, const std::function<double(std::size_t)>& reserve,
+                      bool& changed) {
     double energy_lost = 0;
     for (std::size_t i = 0; i < blocks.size(); ++i) {
         if (blocks.is_fixed[i]) continue;
         if (asleep_[i]) {
-            if (load_changed(blocks, i, rules_.wake_load)) {
+            if (is_disturbed(blocks, i)) {
                 wake(blocks, i, t);
                 changed = true;
             }
             continue;
         }
-        const double turned = (orientation_[i].conjugate() * blocks.orientation[i]).vec().norm();
-        const double moved =
-            (blocks.position[i] - position_[i]).norm() + 2 * blocks.shape_of(i).radius * turned;
-        // Half the waking load: a block that has just fallen asleep is not woken by what it slept through.
-        if (moved > rules_.rest_displacement || load_changed(blocks, i, 0.5 * rules_.wake_load)) {
+        if (has_moved(blocks, i)) {
             drop_anchor(blocks, i, t);
-        } else if (t - since_[i] >= rules_.rest_time) {
+            continue;
+        }
+        if (t - since_[i] < rules_.rest_time) continue;
+        wake_force_[i] = rules_.wake_load * reserve(i);
+        // Half the waking load: a block that has just fallen asleep is not woken by what it slept through.
+        // And what is left over is about what the water changes by from one look to the next, no
+        // acceleration.
+        constexpr double quiet = 0.5, balanced = 0.05;
+        const double left_over = blocks.force[i].norm() + blocks.torque[i].norm() / blocks.shape_of(i).radius;
+        if (wake_force_[i] > 0 && left_over <= balanced * wake_force_[i] &&
+            load_change(blocks, i, Vector::Zero(), Vector::Zero()) <= quiet * wake_force_[i]) {
             energy_lost += blocks.kinetic_energy(i);
             blocks.place(i, blocks.position[i], blocks.orientation[i], Vector::Zero(), Vector::Zero());
-            drop_anchor(blocks, i, t);
             asleep_[i] = 1;
             changed = true;
         }
+        drop_anchor(blocks, i, t);
     }
     return energy_lost;
 }
@@ -81,6 +95,7 @@ void Sleeping::restore(const Memory& memory) {
     torque_ = memory.torque;
     orientation_ = memory.orientation;
     since_ = memory.since;
+    wake_force_ = memory.wake_force;
 }
 
 }  // namespace dem

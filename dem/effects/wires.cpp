@@ -41,6 +41,13 @@ Vector Wires::between_ends(const Blocks& blocks, std::size_t wire) const {
            blocks.sphere_centre(block_a[wire], sphere_a[wire]);
 }
 
+Vector Wires::pull_of(const Blocks& blocks, std::size_t wire) const {
+    if (!is_intact[wire]) return Vector::Zero();
+    const Vector between = between_ends(blocks, wire);
+    const double r = between.norm();
+    return r > rest_length[wire] ? Vector(tension_at(wire, r) / r * between) : Vector::Zero();
+}
+
 void Wires::pull(Blocks& blocks, double t) {
     std::vector<std::uint32_t> all(size());
     std::iota(all.begin(), all.end(), 0u);

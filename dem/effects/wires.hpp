@@ -41,6 +41,8 @@ struct Wires {
     void pull(Blocks& blocks, double t);
     /// Elastic energy of the intact ones at their present length, J.
     double elastic_energy(const Blocks& blocks) const;
+    /// Pull of one wire on its first end at the present poses, N; the second end feels the opposite.
+    Vector pull_of(const Blocks& blocks, std::size_t wire) const;
     /// From the first end to the second, m.
     Vector between_ends(const Blocks& blocks, std::size_t wire) const;
     std::size_t intact_count() const;
