@@ -17,6 +17,10 @@ class Balance {
 
     /// Takes stock; `wall`: place of the offshore wall, m.
     void update(const NearField& field, double wall);
+    /// Throws RunError where the last stock says that the run has gone wrong. Bounds are two and more times
+    /// what the verification and hard cases reach, and less than half of what known failures do.
+    /// `returned`: particles put back out of the solid so far.
+    void judge(const NearField& field, double time, std::size_t returned) const;
     /// `elsewhere`: fluid particles that have left the water and are known (waiting, overtopped).
     void describe(common::RunRecord& record, const NearField& field, std::size_t elsewhere) const;
 

@@ -9,44 +9,51 @@ namespace cmps {
 
 void decide_effects(const common::SceneFile& file, Scene& scene) {
     using common::EffectWish;
-    const auto decide = [&](const char* name, bool is_needed, const std::string& reason) {
+    const bool is_wave_driven = scene.drive == Drive::waves;
+    const auto decide = [&](const char* name, bool is_needed, const std::string& reason,
+                            bool can_act = true) {
         const EffectWish wish = common::read_effect_wish(file, name);
-        if (wish == EffectWish::automatic)
+        if (wish == EffectWish::automatic || !can_act)
             scene.effects.push_back({name, is_needed, reason});
         else
             scene.effects.push_back(
                 {name, wish == EffectWish::on,
                  fmt::format("[effects] {} = \"{}\"", name, wish == EffectWish::on ? "on" : "off")});
     };
-    const bool is_wave_driven = scene.drive == Drive::waves;
     decide("start_at_arrival", is_wave_driven && !scene.start,
            !is_wave_driven ? "not driven by waves"
            : scene.start   ? "cmps.start gives a time"
-                           : "still water before the first wave is not simulated");
+                           : "still water before the first wave is not simulated",
+           is_wave_driven && !scene.start);
     const bool has_zone = is_wave_driven && scene.boundary != Boundary::paper;
     decide("relaxation_zone", has_zone,
            has_zone         ? "cmps.boundary asks for it"
            : is_wave_driven ? "cmps.boundary = \"paper\""
-                            : "not driven by waves");
+                            : "not driven by waves",
+           is_wave_driven);
 
     decide("absorption", has_zone && scene.absorption > 0,
            !is_wave_driven        ? "not driven by waves"
            : !has_zone            ? "cmps.boundary = \"paper\""
            : scene.absorption > 0 ? "the wall takes in what comes back to it"
-                                  : "cmps.absorption = 0");
+                                  : "cmps.absorption = 0",
+           is_wave_driven);
 
     const bool has_overflow = is_wave_driven && scene.boundary != Boundary::relaxation;
     decide("wall_overflow", has_overflow,
            has_overflow     ? "cmps.boundary asks for it"
            : is_wave_driven ? "wall and relaxation zone take reflected waves"
-                            : "not driven by waves");
+                            : "not driven by waves",
+           is_wave_driven);
 
     // boundary layer of a wave of about a second: sqrt(nu T)
     const double layer = std::sqrt(scene.viscosity * 1.0);
     const bool is_resolved = layer > 2.0 * scene.settings.spacing;
-    decide("viscosity", is_resolved,
-           fmt::format("boundary layer of one second {:.2g} m, particle spacing {:.2g} m", layer,
-                       scene.settings.spacing));
+    decide("viscosity", (scene.viscosity_is_given && scene.viscosity > 0) || is_resolved,
+           scene.viscosity_is_given
+               ? "cmps.viscosity is given"
+               : fmt::format("boundary layer of one second {:.2g} m, particle spacing {:.2g} m", layer,
+                             scene.settings.spacing));
 
     const double height = scene.wave_height;
     // in front of a reflecting structure waves stand twice as high as they came

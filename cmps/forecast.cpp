@@ -39,13 +39,24 @@ double height_to_fall(const Scene& scene, const Solid& solid, const Particles& p
     return centre - moment / (volume - left);
 }
 
+/// Mean speed of water that falls freely onto the floor of its tank, over sqrt(g h).
+double falling_speed(const Scene& scene, const Particles& particles) {
+    const double g = std::abs(scene.settings.gravity_z);
+    if (!scene.tank || g == 0 || particles.fluid == 0) return 0.0;
+    const auto first = particles.z.begin() + static_cast<std::ptrdiff_t>(particles.first_fluid());
+    const double way = *std::min_element(first, particles.z.end()) - (*scene.tank)[2];
+    const double duration = std::min(scene.time.end, std::sqrt(2.0 * std::max(way, 0.0) / g));
+    return 0.5 * g * duration / std::sqrt(g * scene.settings.depth);
+}
+
 /// Mean step, s, when water at rest allows `largest` (0.4 l0 / sqrt(g h)). What moves fastest, over sqrt(g
 /// h), as met in runs: 0.6 under waves of H/h = 0.2 to 0.4, 1.3 to 1.8 in columns that collapse and in tanks
 /// that are shaken, nothing in still water.
 double mean_step(const Scene& scene, const Solid& solid, const Particles& particles, double largest) {
     const bool is_still =
         scene.gravity_file.empty() && height_to_fall(scene, solid, particles) < 0.5 * scene.settings.spacing;
-    const double fastest = scene.drive != Drive::none ? 0.6 : is_still ? 0.0 : 1.45;
+    double fastest = scene.drive != Drive::none ? 0.6 : is_still ? 0.0 : 1.45;
+    if (!is_still) fastest = std::max(fastest, falling_speed(scene, particles));
     const double gravity_step = 0.4;
     return largest * std::min(1.0, scene.settings.courant / (gravity_step * fastest + 1e-12));
 }

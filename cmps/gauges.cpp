@@ -15,25 +15,36 @@ constexpr double pi = 3.14159265358979;
 
 double surface_elevation(const Particles& particles, const Solid& solid, double spacing, double x) {
     const double reach = 2.1 * spacing;
-    std::vector<std::array<double, 2>> near;  // distance in x, z
+    struct Near {
+        double dx, z;
+        bool is_fluid;
+    };
+    std::vector<Near> near;
     double low = 1e300, high = -1e300, water = -1e300;
     for (std::size_t j = 0; j < particles.size(); ++j)
         if (std::abs(particles.x[j] - x) < reach) {
-            near.push_back({particles.x[j] - x, particles.z[j]});
+            near.push_back({particles.x[j] - x, particles.z[j], particles.is_fluid(j)});
             low = std::min(low, particles.z[j]), high = std::max(high, particles.z[j]);
             if (particles.is_fluid(j)) water = std::max(water, particles.z[j]);
         }
     if (near.empty()) return 0.0;
     // the bottom of the highest free interval that water stands in; of the lowest one where all is dry
     double bottom = high, ceiling = high;
-    for (const auto& [from, to] : solid.free_intervals(x, low - reach, high + 2 * reach))
-        if (from < water || bottom == high) bottom = from, ceiling = to;
+    for (const double aside :
+         {0.0, -0.01 * spacing, 0.01 * spacing}) {  // a gauge on a face: the water's side
+        double below = high, above = high;
+        for (const auto& [from, to] : solid.free_intervals(x + aside, low - reach, high + 2 * reach))
+            if (from < water || below == high) below = from, above = to;
+        if (aside == 0.0 || below < water) bottom = below, ceiling = above;
+        if (bottom < water) break;
+    }
     const WendlandKernel kernel{reach};
     const double full = pi * reach * reach / 7.0 / (spacing * spacing);
     const auto filled = [&](double z) {
-        double sum = 0;
-        for (const auto& [dx, pz] : near) sum += kernel.weight(dx * dx + (pz - z) * (pz - z));
-        return sum / full;
+        double wet = 0, solid_part = 0;
+        for (const auto& [dx, pz, is_fluid] : near)
+            (is_fluid ? wet : solid_part) += kernel.weight(dx * dx + (pz - z) * (pz - z)) / full;
+        return wet / (1.0 - std::min(solid_part, 0.9));
     };
     // like a wire gauge: the wetted length above the bottom, so that a void under an overturning crest counts
     // as air

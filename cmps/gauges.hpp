@@ -10,7 +10,8 @@
 namespace cmps {
 
 /// Height of the water's surface at x, as a wire gauge reads it: bottom plus wetted length, wet being where
-/// at least half the kernel is filled by water and solid. The bottom itself where it is dry. m
+/// water fills at least half of what the solid leaves of the kernel. On a face, that of the water before it.
+/// The bottom itself where it is dry. m
 double surface_elevation(const Particles& particles, const Solid& solid, double spacing, double x);
 
 /// Mean pressure of the water within `diameter`/2 (at least one spacing) of (x, z), Pa; zero where it is dry.

@@ -70,11 +70,21 @@ void check_start(double start, const cmps::Scene& scene) {
             "time.end = {:g} s lies before the near field starts, t = {:g} s", scene.time.end, start));
 }
 
+void check_water(const cmps::Scene& scene) {
+    if (cmps::initial_particles(scene, cmps::make_solid(scene), nullptr).fluid == 0)
+        throw common::InputError(
+            fmt::format("there is no water: nothing of cmps.water is as wide as cmps.particle_spacing = {:g} "
+                        "m and outside "
+                        "the structure",
+                        scene.settings.spacing));
+}
+
 int check(const common::StageCommand& command, const common::SceneFile& file, const cmps::Scene& scene) {
     if (command.all) {
         std::cout << file.reference();
         return common::exit_done;
     }
+    check_water(scene);
     double start = -1;
     if (!command.upstream.empty() && scene.drive == cmps::Drive::waves) {
         Upstream upstream(command, scene);
@@ -110,6 +120,7 @@ int run(const common::StageCommand& command, const common::SceneFile& file, cons
     // whatever can be wrong is found before an earlier run's windows make room; waves that are still being
     // made cannot be judged yet
     if (!command.follow) check_start(start_time(scene, waves), scene);
+    check_water(scene);
     common::OutputFolder folder(command.out, {"cmps", file.digest(upstream_digest), upstream_digest},
                                 command.resume);
     if (folder.start() == common::OutputFolder::Start::nothing_to_do) return common::exit_done;

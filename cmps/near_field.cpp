@@ -39,6 +39,7 @@ NearField::NearField(const Settings& chosen, Particles initial)
       gradient_(chosen.gradient, lattice.number_density) {
     for (std::size_t i = particles.first_fluid(); i < particles.size(); ++i)
         largest_speed_ = std::max(largest_speed_, std::hypot(particles.u[i], particles.w[i]));
+    first_speed_ = largest_speed_;
 }
 
 double NearField::largest_step() const {
@@ -47,7 +48,9 @@ double NearField::largest_step() const {
     double step = 0.4 * l0 / std::sqrt(g * std::max(settings.depth, l0));
     if (largest_speed_ > 0) step = std::min(step, settings.courant * l0 / largest_speed_);
     if (largest_acceleration_ > 0) step = std::min(step, 0.25 * std::sqrt(l0 / largest_acceleration_));
-    return settings.time_step_factor * step;
+    step *= settings.time_step_factor;
+    for (const auto& effect : effects) step = std::min(step, effect->longest_step(*this));
+    return step;
 }
 
 void NearField::advance(double time, double step) {
@@ -136,6 +139,10 @@ void NearField::solve_pressure(double step) {
             solver_.solve(equation.matrix, equation.right_hand_side, unknown_pressure_, unknown_x_,
                           unknown_z_, std::max(2.5, 0.5 * settings.kernel_radius_ratio) * settings.spacing);
     }
+    if (equation.is_closed) {  // the lowest pressure in a full box is zero
+        const double least = *std::min_element(unknown_pressure_.begin(), unknown_pressure_.end());
+        for (double& pressure : unknown_pressure_) pressure -= least;
+    }
     note_pressure_change(unknown_pressure_);
     counts.iterations += report.iterations;
     if (!report.is_converged) ++counts.unconverged;
@@ -150,9 +157,9 @@ void NearField::solve_pressure(double step) {
 void NearField::note_pressure_change(const std::vector<double>& solved) {
     constexpr std::size_t first_steps = 3;  // released water takes its pressure at once
     if (counts.steps < first_steps) return;
-    const auto water = place.begin() + static_cast<std::ptrdiff_t>(particles.walls);
-    // without a free surface a pressure is known up to a constant, which may be anything
-    if (std::find(water, place.end(), Place::surface) == place.end()) return;
+    // without a free surface the pressure is known up to a constant
+    if (equation.is_closed) ++counts.closed;
+    if (equation.is_closed) return;
     const std::size_t first = particles.first_wall();
     const double stagnation = 0.5 * settings.pressure.density * largest_speed_ * largest_speed_;
     for (std::size_t a = 0; a < solved.size(); ++a) {
@@ -180,13 +187,15 @@ void NearField::apply_gradient(double step) {
         strongest = std::max(strongest, (du * du + dw * dw) / (step * step));
     }
     push_apart(step);
-    double fastest = 0;
+    double fastest = 0, total = 0;
     for (std::size_t i = first; i < particles.size(); ++i) {
+        total += particles.u[i] * particles.u[i] + particles.w[i] * particles.w[i];
         // a lone drop in flight meets nobody within a step and limits none
         if (place[i - particles.first_wall()] != Place::dry)
             fastest = std::max(fastest, particles.u[i] * particles.u[i] + particles.w[i] * particles.w[i]);
     }
-    largest_speed_ = std::sqrt(fastest);
+    // a maximum passes over what is no number; the sum does not
+    largest_speed_ = std::isfinite(total) ? std::sqrt(fastest) : total;
     largest_acceleration_ = std::sqrt(strongest);
 }
 
@@ -349,9 +358,9 @@ void NearField::settle(int sweeps, double surface_level) {
 
 void NearField::check(double time, double step) const {
     const double g = std::hypot(settings.gravity_x, settings.gravity_z);
-    // free fall over five depths: no water in the scene is faster
-    const double limit =
-        5.0 * std::sqrt(2.0 * std::max(g, 1.0) * std::max(settings.depth, settings.spacing)) + 5.0;
+    // a fall over 25 times the depth, or the tank's extent, and five times the water's first speed
+    const double height = std::max({settings.depth, settings.fall, settings.spacing});
+    const double limit = 5.0 * (std::sqrt(2.0 * std::max(g, 1.0) * height) + first_speed_) + 5.0;
     if (largest_speed_ < limit) return;
     std::size_t worst = particles.first_fluid();
     for (std::size_t i = worst; i < particles.size(); ++i)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,6 +35,8 @@ class Effect {
     virtual void accelerate(NearField&, double /*time*/, double /*step*/) {}
     /// After positions and velocities are those of `time`.
     virtual void end_step(NearField&, double /*time*/, double /*step*/) {}
+    /// Longest step that it bears, s.
+    virtual double longest_step(const NearField&) const { return std::numeric_limits<double>::infinity(); }
     /// What it must remember to go on bit for bit.
     virtual std::vector<double> state() const { return {}; }
     virtual void restore(const std::vector<double>&) {}
@@ -48,7 +51,8 @@ struct PhaseSeconds {
 /// What the steps so far have met.
 struct StepCounts {
     std::size_t steps = 0, iterations = 0, list_builds = 0, unconverged = 0, wall_contacts = 0,
-                collisions = 0;
+                collisions = 0,
+                closed = 0;  ///< steps without a free surface
 };
 
 class NearField {
@@ -58,7 +62,7 @@ class NearField {
     /// Spreads the particles evenly by shifting alone (before the first step), then sets hydrostatic
     /// pressure.
     void settle(int sweeps, double surface_level);
-    /// Largest step now, s: courant l0/u, 0.4 l0/sqrt(g h), 0.25 sqrt(l0/a).
+    /// Largest step now, s: courant l0/u, 0.4 l0/sqrt(g h), 0.25 sqrt(l0/a), what effects bear.
     double largest_step() const;
     /// One step from `time` to `time + step`. Throws RunError when it goes wrong.
     void advance(double time, double step);
@@ -98,6 +102,7 @@ class NearField {
         change_u_, change_w_;
     std::vector<std::vector<double>*> companions_;  // arrays that go along when particles are put in order
     double largest_speed_ = 0, largest_acceleration_ = 0, last_step_ = 0;
+    double first_speed_ = 0;                                              // of the water at the start, m/s
     double pressure_change_ = 0, pressure_sum_ = 0, stagnation_sum_ = 0;  ///< over particles and steps, Pa
 
  public:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "cmps/gradient.hpp"
 #include "common/parallel.hpp"
@@ -95,6 +96,11 @@ void PressureEquation::assemble(const Particles& particles, const NeighbourLists
     row_of.clear();
     const bool is_smooth = settings_.surface == SurfaceCondition::smooth;
     const double n0 = lattice_.number_density;
+    // a few particles in disorder, in corners mostly, are no surface
+    constexpr std::size_t few = 6, share = 50;
+    std::size_t at_surface = 0;
+    for (std::size_t r = particles.walls; r < rows; ++r) at_surface += place[r] >= Place::surface;
+    is_closed = at_surface <= few && at_surface * share < particles.fluid;
     for (std::size_t r = 0; r < rows; ++r) {
         const bool is_unknown = is_smooth ? place[r] != Place::dry : place[r] < Place::surface;
         unknown_of[r] = is_unknown ? static_cast<std::int32_t>(row_of.size()) : -1;
@@ -138,10 +144,10 @@ void PressureEquation::assemble(const Particles& particles, const NeighbourLists
 #pragma omp simd reduction(+ : left)
         for (std::size_t k = begin; k < next; ++k) left += column[k] < static_cast<std::int32_t>(a);
         matrix.upper[a] = static_cast<std::uint32_t>(begin) + static_cast<std::uint32_t>(left);
-        if (is_smooth)
+        if (is_smooth && !is_closed)
             diagonal +=
                 missing_kernel(interactions, row) * (is_higher_order ? lattice_.laplacian_ratio : 1.0);
-        // a closed full box has no surface: the small excess makes it regular and fixes the mean
+        // a closed full box has no surface: the small excess makes it regular
         matrix.diagonal[a] = std::max(diagonal, 1e-3 * n0) * (1 + 1e-7);
         matrix.start[a + 1] = static_cast<std::uint32_t>(next);
     }
@@ -163,6 +169,12 @@ void PressureEquation::assemble(const Particles& particles, const NeighbourLists
         right_hand_side[static_cast<std::size_t>(unknown_of[row])] =
             scale * settings_.density / time_step * source;
     });
+    if (!is_closed || unknowns == 0) return;
+    // Water that nothing lets out neither swells nor shrinks: what is left in the mean is an error, which no
+    // pressure can take away.
+    const double mean =
+        std::accumulate(right_hand_side.begin(), right_hand_side.end(), 0.0) / static_cast<double>(unknowns);
+    for (double& value_of : right_hand_side) value_of -= mean;
 }
 
 }  // namespace cmps

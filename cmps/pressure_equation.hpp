@@ -62,6 +62,7 @@ class PressureEquation {
     std::vector<double> right_hand_side;
     std::vector<std::int32_t> unknown_of;  ///< per carrier row; -1: p = 0
     std::vector<std::int32_t> row_of;      ///< per unknown
+    bool is_closed = false;                ///< no free surface: the pressure is known up to a constant
     std::vector<double> density_error;     ///< (n - n0)/n0 per carrier row
 
  private:

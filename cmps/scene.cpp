@@ -175,6 +175,9 @@ void read_numerics(const common::SceneFile& file, const Section& section, Scene&
                                                         "fit into the memory of a machine",
                                                         settings.spacing, particles, most_particles));
     settings.depth = depth;
+    settings.fall = scene.tank
+                        ? std::hypot((*scene.tank)[1] - (*scene.tank)[0], (*scene.tank)[3] - (*scene.tank)[2])
+                        : depth;
     settings.kernel = chosen<KernelKind>(
         section, "kernel", "weight function",
         {{"wendland", KernelKind::wendland}, {"rational", KernelKind::rational}}, "wendland");
@@ -315,6 +318,7 @@ void read_drive(const Section& section, Scene& scene, double depth) {
     else
         section.choice("start", "time at which the near field starts, or \"arrival\"", {"arrival"},
                        "arrival");
+    scene.viscosity_is_given = section.has("viscosity");
     scene.viscosity = section.number("viscosity", "m2/s", "kinematic; used by the effect viscosity",
                                      Range::not_negative(), 1e-6);
     scene.smagorinsky = section.number("smagorinsky", "-", "constant of the sub-particle turbulence",
@@ -356,6 +360,26 @@ void read_output(const common::SceneFile& file, const Section& section, Scene& s
                     Range::not_negative(), interval);
 }
 
+/// Gauges that this stage alone could read, where it has no water. Surfaces outside the near field are the
+/// waves' own.
+void check_gauges(const common::SceneFile& file, const Scene& scene) {
+    using Kind = common::Gauge::Kind;
+    if (scene.offshore >= scene.onshore) return;  // said already
+    for (const common::Gauge& gauge : scene.gauges) {
+        const bool is_inside = gauge.x >= scene.offshore && gauge.x <= scene.onshore;
+        if (!is_inside && (gauge.kind != Kind::surface || scene.drive != Drive::waves))
+            file.section("gauges").problem(
+                gauge.name, fmt::format("x = {:g} m lies outside the near field, x = {:g} to {:g} m", gauge.x,
+                                        scene.offshore, scene.onshore));
+        const bool has_level = gauge.kind == Kind::pressure || gauge.kind == Kind::velocity;
+        if (is_inside && has_level && scene.tank &&
+            (gauge.z < (*scene.tank)[2] || gauge.z > (*scene.tank)[3]))
+            file.section("gauges").problem(
+                gauge.name, fmt::format("z = {:g} m lies outside the tank, z = {:g} to {:g} m", gauge.z,
+                                        (*scene.tank)[2], (*scene.tank)[3]));
+    }
+}
+
 }  // namespace
 
 bool Scene::has_effect(const std::string& name) const {
@@ -386,6 +410,7 @@ Scene read_scene(const common::SceneFile& file) {
     read_waves(file, scene, depth);
     read_output(file, section, scene);
     scene.gauges = common::read_gauges(file, 0.02);
+    check_gauges(file, scene);
     for (const common::Gauge& gauge : scene.gauges)
         if (std::min(scene.time.window, scene.time.end) / gauge.interval > most_gauge_samples)
             file.section("gauges").problem(

@@ -46,7 +46,8 @@ struct Scene {
     std::optional<double> start;     ///< s; absent: at arrival of the waves
     double arrival_threshold = 0;    ///< m
     double viscosity = 0;            ///< kinematic, m2/s
-    double smagorinsky = 0;          ///< constant of the sub-particle turbulence
+    bool viscosity_is_given = false;
+    double smagorinsky = 0;  ///< constant of the sub-particle turbulence
 
     // output
     FlowGridSettings flow;

@@ -13,6 +13,7 @@ namespace cmps {
 struct Reading {
     double time = 0;
     bool is_made = false;
+    bool is_solved = false;  ///< pressures are those of a step: before the first there is only a guess
     std::array<std::vector<double>, 3> fields;  ///< as many as the quantity has
 };
 

@@ -37,6 +37,7 @@ struct Settings {
     double courant = 0.3;               ///< u dt / l0
     double time_step_factor = 1;        ///< on the largest step by speed, celerity and acceleration
     double gravity_x = 0, gravity_z = -9.81;  ///< m/s2
+    double fall = 0;                          ///< how far water can fall at most, m: bounds its speed
     double depth = 0;  ///< largest depth of water, m: sets the wave speed in the time step
 };
 

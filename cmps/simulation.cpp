@@ -12,6 +12,8 @@
 namespace cmps {
 namespace {
 
+constexpr std::size_t steps_between_stocks = 400;  // a stock costs as much as one or two steps
+
 /// Level of the water at the start, for the first guess of its pressure, m.
 double highest_water(const Scene& scene) {
     double surface = 0;
@@ -86,16 +88,22 @@ common::Window Simulation::advance_window(const common::WindowClock& clock, std:
         const double next = time_ + field_->largest_step();
         if (waves_) waves_->cover(time_, next);
         if (next >= end) {
-            balance_->update(*field_, wall_ ? wall_->position() : scene_.offshore);
+            take_stock();
             before_crossing_ = save_state();
         }
         output_->before_step(time_, next, *field_, overtopped());
+        if (field_->counts.steps % steps_between_stocks == 0) take_stock();
         field_->advance(time_, next - time_);
         time_ = next;
         output_->after_step(time_, *field_, overtopped());
         on_step(time_);
     }
     return output_->take();
+}
+
+void Simulation::take_stock() {
+    balance_->update(*field_, wall_ ? wall_->position() : scene_.offshore);
+    balance_->judge(*field_, time_, containment_->returned());
 }
 
 common::DataFile Simulation::save_state() const {

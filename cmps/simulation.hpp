@@ -41,6 +41,8 @@ class Simulation {
 
  private:
     common::DataFile save_state() const;
+    /// Throws RunError when the run has gone wrong.
+    void take_stock();
     void compose_effects();
     void add_offshore_boundary();
     template <class Kind, class... Arguments>

@@ -83,10 +83,18 @@ void WindowOutput::after_step(double time, const NearField& field, std::size_t o
     });
 }
 
+bool WindowOutput::is_pressure(const Series& series) const {
+    if (&series == &force_series_) return true;
+    if (&series == &flow_series_ || &series == &particle_series_) return false;
+    return gauges_[static_cast<std::size_t>(&series - gauge_series_.data())].kind ==
+           common::Gauge::Kind::pressure;
+}
+
 void WindowOutput::take_samples(Series& series) {
     const double from = series.before.time, to = series.after.time;
     for (; series.is_passed_by(to); ++series.next) {
-        const double share = std::clamp((series.due[series.next] - from) / (to - from), 0.0, 1.0);
+        double share = std::clamp((series.due[series.next] - from) / (to - from), 0.0, 1.0);
+        if (!series.before.is_solved && is_pressure(series)) share = 1.0;
         if (&series == &particle_series_) {
             sample_particles(share);
             continue;
@@ -101,7 +109,7 @@ void WindowOutput::take_samples(Series& series) {
 
 void WindowOutput::read(const Series& series, const NearField& field, std::size_t overtopped, double time,
                         Reading& reading) {
-    reading.time = time, reading.is_made = true;
+    reading.time = time, reading.is_made = true, reading.is_solved = field.counts.steps > 0;
     if (&series == &flow_series_) return read_flow(field, reading);
     if (&series == &particle_series_) return read_particles(field.particles, reading);
     for (auto& values : reading.fields) values.clear();
@@ -150,7 +158,8 @@ void WindowOutput::sample_particles(double share) {
             values[0].push_back(static_cast<float>(is_here ? value(0, 2 * k + c) : away[c]));
             values[1].push_back(static_cast<float>(value(1, 2 * k + c)));
         }
-        values[2].push_back(static_cast<float>(value(2, k)));
+        values[2].push_back(
+            static_cast<float>(particle_series_.before.is_solved ? value(2, k) : after[2][k]));
     }
 }
 

@@ -48,6 +48,7 @@ class WindowOutput {
     void for_each_series(const Visit& visit);
     void read(const Series& series, const NearField& field, std::size_t overtopped, double time,
               Reading& reading);
+    bool is_pressure(const Series& series) const;
     void take_samples(Series& series);
 
     const Scene& scene_;

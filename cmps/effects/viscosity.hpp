@@ -9,6 +9,9 @@ class Viscosity final : public Effect {
  public:
     explicit Viscosity(double kinematic) : kinematic_(kinematic) {}
     std::string name() const override { return "viscosity"; }
+    double longest_step(const NearField& field) const override {
+        return 0.25 * field.settings.spacing * field.settings.spacing / kinematic_;
+    }
     void accelerate(NearField& field, double time, double step) override;
 
  private:

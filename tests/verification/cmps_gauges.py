@@ -98,6 +98,40 @@ particles_interval = 0.5
     expect(np.all(np.diff(volume) > -3 * spacing**2), f"weir: what has passed stays passed (largest step back {-np.diff(volume).min() / spacing**2:.0f} particles)")
 
 
+def gauges_on_faces():
+    """A gauge on a face reads the water before it, not the wall; one on a block's top reads the block."""
+    spacing = 0.02
+    run = Run("faces", f"""
+[time]
+end = 1.0
+window = 1.0
+[flume]
+bed = [[0, -0.4], [4, -0.4]]
+[gauges]
+end = 0.0
+near_end = 0.005
+face = 3.0
+before = 2.995
+top = 3.1
+behind = {{x = 3.3, kind = "overtopping"}}
+[cmps]
+drive = "none"
+offshore = 0
+onshore = 4
+particle_spacing = {spacing}
+structure = [[[3, -0.4], [3, 0.3], [3.2, 0.3], [3.2, -0.4]]]
+""")
+    expect(run.status == 0, f"gauges on faces: exit {run.status} {run.messages.strip()}")
+    for name in ("end", "near_end", "face", "before"):
+        level = run.gauge(name)[1].mean()
+        # the first column of particles stands half a spacing from the face and rounds the surface off by as much
+        expect(abs(level) < 0.6 * spacing, f"gauge on a face: {name} {level:+.4f} m in still water (bound {0.6 * spacing:.3f}: six tenths of a spacing)")
+    expect(np.allclose(run.gauge("top")[1], 0.3), "gauge on a dry block: its top")
+    volume = run.gauge("behind", "overtopped_volume")[1]
+    expect(np.all(volume == 0), "overtopping gauge behind the crest: recorded, nothing has come over")
+
+
 still_water()
 weir()
+gauges_on_faces()
 finish()

@@ -1,0 +1,45 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "cmps/effects/viscosity.hpp"
+#include "cmps/near_field.hpp"
+#include "common/errors.hpp"
+#include "tests/support/cmps_tank.hpp"
+
+namespace {
+
+constexpr double l0 = 0.02;
+
+cmps::NearField tank() {
+    cmps::Settings settings;
+    settings.spacing = l0, settings.depth = 0.2;
+    return {settings, cmps_tank::particles(
+                          0.4, l0, [](double) { return 0.2; }, 0.3)};
+}
+
+/// Gives one particle a velocity that is no number.
+struct Fault final : cmps::Effect {
+    std::string name() const override { return "fault"; }
+    void accelerate(cmps::NearField& field, double, double) override {
+        field.particles.u[field.particles.first_fluid() + 3] = std::numeric_limits<double>::quiet_NaN();
+    }
+};
+
+TEST(Noticing, AVelocityThatIsNoNumberStopsTheRun) {
+    cmps::NearField field = tank();
+    field.settle(1, 0.2);
+    field.advance(0.0, field.largest_step());
+    field.effects.push_back(std::make_unique<Fault>());
+    EXPECT_THROW(field.advance(0.01, field.largest_step()), common::RunError);
+}
+
+TEST(Noticing, ViscosityLimitsTheStep) {
+    cmps::NearField field = tank();
+    const double without = field.largest_step();
+    const double kinematic = 0.25 * l0 * l0 / (0.5 * without);  // asks for half of it
+    field.effects.push_back(std::make_unique<cmps::Viscosity>(kinematic));
+    EXPECT_DOUBLE_EQ(field.largest_step(), 0.5 * without);
+}
+
+}  // namespace
