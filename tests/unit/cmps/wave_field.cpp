@@ -1,6 +1,7 @@
 #include "cmps/wave_field.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -21,7 +22,8 @@ double mean_velocity(double x, double t) {
 
 /// Windows of half a second of a small progressive wave.
 std::filesystem::path write_windows(const std::string& name, int count) {
-    const auto folder = std::filesystem::path(testing::TempDir()) / ("cmps_wave_field_" + name);
+    const auto folder = std::filesystem::path(testing::TempDir()) /
+                        ("cmps_wave_field_" + name + "_" + std::to_string(getpid()));
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
     for (int index = 0; index < count; ++index) {
