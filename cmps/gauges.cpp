@@ -23,7 +23,9 @@ double surface_elevation(const Particles& particles, const Solid& solid, double 
     double low = 1e300, high = -1e300, water = -1e300;
     for (std::size_t j = 0; j < particles.size(); ++j)
         if (std::abs(particles.x[j] - x) < reach) {
-            near.push_back({particles.x[j] - x, particles.z[j], particles.is_fluid(j)});
+            // the moving wall fills: absorption reads the level before it
+            near.push_back({particles.x[j] - x, particles.z[j],
+                            particles.is_fluid(j) || particles.body[j] == body_moving_wall});
             low = std::min(low, particles.z[j]), high = std::max(high, particles.z[j]);
             if (particles.is_fluid(j)) water = std::max(water, particles.z[j]);
         }
