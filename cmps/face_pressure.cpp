@@ -9,6 +9,23 @@ FacePressure::FacePressure(const Particles& particles, const Solid& solid, const
     : spacing_(settings.spacing) {
     const double l0 = spacing_, density = settings.pressure.density;
     const std::size_t first = particles.first_wall();
+    const auto support = [&](const Piece& piece, std::size_t j, double weight) {
+        const double ex = piece.at[0] - particles.x[j] - 0.5 * l0 * particles.normal_x[j],
+                     ez = piece.at[1] - particles.z[j] - 0.5 * l0 * particles.normal_z[j];
+        return Support{.wall = j - first,
+                       .weight = weight,
+                       .carried = density * (settings.gravity_x * ex + settings.gravity_z * ez)};
+    };
+    // behind the end of a face at a sharp edge there may be none: the nearest one then stands for it
+    const auto add_nearest = [&](Piece& piece) {
+        double least = 3.0 * l0;  // farther off there are no walls: water cannot get there
+        std::size_t nearest = particles.size();
+        for (std::size_t j = first; j < particles.first_fluid(); ++j) {
+            const double distance = std::hypot(piece.at[0] - particles.x[j], piece.at[1] - particles.z[j]);
+            if (particles.body[j] != body_moving_wall && distance < least) least = distance, nearest = j;
+        }
+        if (nearest < particles.size()) piece.supports.push_back(support(piece, nearest, 1.0));
+    };
     for (const SurfaceSegment& segment : solid.surface()) {
         const double dx = segment.to[0] - segment.from[0], dz = segment.to[1] - segment.from[1];
         const double length = std::hypot(dx, dz), tx = dx / length, tz = dz / length;
@@ -33,12 +50,9 @@ FacePressure::FacePressure(const Particles& particles, const Solid& solid, const
                 const double ex = piece.at[0] - particles.x[j] - 0.5 * l0 * particles.normal_x[j],
                              ez = piece.at[1] - particles.z[j] - 0.5 * l0 * particles.normal_z[j];
                 const double weight = 1.0 - std::abs(ex * tx + ez * tz) / (1.2 * l0);
-                if (weight > 0)
-                    piece.supports.push_back(
-                        {.wall = j - first,
-                         .weight = weight,
-                         .carried = density * (settings.gravity_x * ex + settings.gravity_z * ez)});
+                if (weight > 0) piece.supports.push_back(support(piece, j, weight));
             }
+            if (piece.supports.empty()) add_nearest(piece);
             if (!piece.supports.empty()) pieces_.push_back(std::move(piece));
         }
     }

@@ -272,7 +272,8 @@ void NearField::push_apart(double step) {
                 const double nx = particles.normal_x[j], nz = particles.normal_z[j];
                 const double gap = -(dx * nx + dz * nz) - 0.5 * l0;  // from the face
                 const double sideways = std::abs(-dx * nz + dz * nx);
-                if (gap < 0.1 * l0 && sideways < 0.55 * l0) {
+                // farther behind it is water of another face
+                if (gap < 0.1 * l0 && gap > -0.5 * l0 && sideways < 0.55 * l0) {
                     const double speed = (ui + du - particles.u[j]) * nx + (wi + dw - particles.w[j]) * nz;
                     const double wanted = (0.1 * l0 - gap) / push_step;  // back out within a reference step
                     if (speed < wanted) du += (wanted - speed) * nx, dw += (wanted - speed) * nz;

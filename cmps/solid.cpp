@@ -218,14 +218,75 @@ class Occupied {
     std::unordered_map<std::int64_t, std::vector<Point>> cells_;
 };
 
+/// The largest ball within the solid that touches the face at `at`: its radius, up to `most`.
+double ball_behind(const Solid& solid, const Point& at, const Point& normal, double most) {
+    const auto fits = [&](double depth) {
+        std::size_t nearest = 0;
+        const double x = at[0] - depth * normal[0], z = at[1] - depth * normal[1];
+        return solid.contains(x, z) && solid.distance(x, z, nearest) > depth * (1 - 1e-6);
+    };
+    if (fits(most)) return most;
+    double low = 0, high = most;
+    for (int i = 0; i < 30; ++i) {
+        const double middle = 0.5 * (low + high);
+        (fits(middle) ? low : high) = middle;
+    }
+    return low;
+}
+
+/// Where a particle of the layer whose depth is `depth` stands behind a face whose ball has the radius
+/// `ball`: two sides that come nearer than two layers of each share the one between them.
+double shared_depth(double depth, double ball, double spacing) {
+    const double half_gap = 0.42 * spacing;  // of two layers side by side; they lean to each other at an edge
+    if (ball < depth + 0.5 * half_gap) return ball;
+    return std::min(depth, ball - half_gap);
+}
+
+/// Normal of a particle at (x, z), which stands `distance` behind the face `nearest`. Where two faces of a
+/// sharp edge are as near it stands for both: across the edge, so that water slides along it on either side.
+Point normal_between(const Solid& solid, double x, double z, double distance, std::size_t nearest) {
+    const Point& own = solid.surface()[nearest].normal;
+    constexpr double sharp = -0.3;  // n.n' of faces at less than 73 degrees
+    for (const SurfaceSegment& other : solid.surface()) {
+        if (own[0] * other.normal[0] + own[1] * other.normal[1] > sharp ||
+            distance_to_segment(other, x, z) > 1.02 * distance)
+            continue;
+        const Point across = minus(own, other.normal);
+        const double length = std::hypot(across[0], across[1]);
+        return {across[0] / length, across[1] / length};
+    }
+    return own;
+}
+
 }  // namespace
 
 std::vector<BoundaryParticle> place_boundary(const Solid& solid, double spacing, double x0, double x1,
                                              double z1) {
     constexpr int layers = 4;
-    const double nearest_allowed = 0.7 * spacing;  // below it two particles would stand for one
+    // below it two particles would stand for one; what the depths ask for must pass
+    const double nearest_allowed = 0.7 * spacing * (1 - 1e-6);
     std::vector<BoundaryParticle> placed;
     Occupied occupied(spacing);
+    const auto place = [&](double x, double z) {
+        if (x < x0 || x > x1 || z > z1 || !solid.contains(x, z)) return false;
+        std::size_t nearest = 0;
+        const double distance = solid.distance(x, z, nearest);
+        if (distance > layers * spacing || !occupied.is_free(x, z, nearest_allowed)) return false;
+        occupied.add(x, z);
+        placed.push_back({.x = x,
+                          .z = z,
+                          .normal = normal_between(solid, x, z, distance, nearest),
+                          .body = solid.surface()[nearest].body,
+                          .carries_pressure = distance < 0.85 * spacing});
+        return true;
+    };
+    const auto place_behind = [&](const SurfaceSegment& segment, const Point& at, int layer) {
+        const double depth = (layer + 0.5) * spacing;
+        const double ball = ball_behind(solid, at, segment.normal, depth + 0.5 * spacing);
+        const double behind = shared_depth(depth, ball, spacing);
+        if (layer > 0 && behind < depth - 0.3 * spacing) return false;
+        return place(at[0] - behind * segment.normal[0], at[1] - behind * segment.normal[1]);
+    };
     for (int layer = 0; layer < layers; ++layer)
         for (const bool is_mitre : {false, true})
             for (const SurfaceSegment& segment : solid.surface()) {
@@ -235,25 +296,26 @@ std::vector<BoundaryParticle> place_boundary(const Solid& solid, double spacing,
                 const int count = std::max(1, static_cast<int>(std::lround(length / spacing)));
                 const double step = length / count, depth = (layer + 0.5) * spacing;
                 for (int i = is_mitre ? -layers : 0; i < count + (is_mitre ? layers : 0); ++i) {
-                    if (is_mitre && i >= 0 && i < count) continue;
+                    const bool is_behind = i >= 0 && i < count;
+                    if (is_mitre == is_behind) continue;
                     // past the ends the lattice goes on with the true spacing
                     const double s = i < 0       ? (i + 0.5) * spacing
-                                     : i < count ? (i + 0.5) * step
+                                     : is_behind ? (i + 0.5) * step
                                                  : length + (i - count + 0.5) * spacing;
-                    const double x = segment.from[0] + s * t[0] - depth * segment.normal[0];
-                    const double z = segment.from[1] + s * t[1] - depth * segment.normal[1];
-                    if (x < x0 || x > x1 || z > z1 || !solid.contains(x, z)) continue;
+                    const auto at = [&](double along) {
+                        return Point{segment.from[0] + along * t[0], segment.from[1] + along * t[1]};
+                    };
+                    if (is_behind) {
+                        if (place_behind(segment, at(s), layer) || layer > 0) continue;
+                        // the other side of an edge has other steps: a little beside there may be room
+                        for (const double beside : {0.15, -0.15, 0.3, -0.3})
+                            if (place_behind(segment, at(s + beside * step), layer)) break;
+                        continue;
+                    }
+                    const double x = at(s)[0] - depth * segment.normal[0],
+                                 z = at(s)[1] - depth * segment.normal[1];
                     std::size_t nearest = 0;
-                    const double distance = solid.distance(x, z, nearest);
-                    if (distance < depth - 0.3 * spacing || distance > layers * spacing) continue;
-                    if (!occupied.is_free(x, z, nearest_allowed)) continue;
-                    occupied.add(x, z);
-                    const SurfaceSegment& face = solid.surface()[nearest];
-                    placed.push_back({.x = x,
-                                      .z = z,
-                                      .normal = face.normal,
-                                      .body = face.body,
-                                      .carries_pressure = distance < 0.85 * spacing});
+                    if (solid.distance(x, z, nearest) >= depth - 0.3 * spacing) place(x, z);
                 }
             }
     return placed;

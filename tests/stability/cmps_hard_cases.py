@@ -154,6 +154,32 @@ water = [[[0.0, -0.5], [0.3, -0.5], [0.3, 0.2], [0.0, 0.2]]]
         expect(gain < 0.02, f"acute corners: largest energy gain {gain:.4f} (bound 0.02)")
 
 
+def sharp_edges():
+    """Still water 0.4 m high beside edges of any angle stays still, and the force is that of its pressure."""
+    from math import radians, tan
+    cases = {}
+    for angle in (14, 20, 28, 37, 45, 60, 90):
+        half = 0.2 * tan(radians(angle / 2))
+        cases[f"tooth of {angle} degrees"] = ([[0.506 - half, 0], [0.506 + half, 0], [0.506, 0.2]], -9810 * (0.4 * 2 * half - 0.2 * half))
+    cases["hung wedge of 14 degrees"] = ([[0.3, 0.3], [0.7, 0.25], [0.7, 0.35]], 9810 * 0.5 * 0.4 * 0.1)
+    cases["hung diamond of 28 degrees"] = ([[0.3, 0.2], [0.5, 0.15], [0.7, 0.2], [0.5, 0.25]], 9810 * 0.5 * 0.4 * 0.1)
+    for name, (polygon, lift) in cases.items():
+        run = Run("edge", tank(2.0, [0, 1, 0, 0.8], rectangle(0, 1, 0, 0.4), 0.0125, more=f"structure = [{polygon}]"))
+        if not sound(run, name):
+            continue
+        _, _, velocity = run.fluid()
+        speed = np.hypot(velocity[..., 0], velocity[..., 1])
+        t, force = run.series("structure/time", "structure/force")
+        force = force[t > 0.5, 0]
+        rms, fastest, returned = np.sqrt(np.mean(speed ** 2)), np.max(speed), run.figure("particles", "returned_from_solid")
+        expect(rms < 0.03, f"{name}: particles move at {rms:.4f} m/s rms (bound 0.03: 0.015 sqrt(g d), what still water has anywhere)")
+        expect(fastest < 0.3, f"{name}: fastest {fastest:.3f} m/s (bound 0.3: a fall over half a spacing, as a lattice that settles makes it)")
+        expect(returned < 5, f"{name}: {returned:.0f} particles put back out of the solid (bound 5 in 2 s)")
+        error = np.abs(np.mean(force, axis=0) - [0, lift]) / abs(lift)
+        expect(np.max(error) < 0.03, f"{name}: force {np.mean(force[:, 0]):.1f}, {np.mean(force[:, 1]):.1f} N/m, {lift:.1f} displaced (bound 3 %: a third of a spacing over the body's height)")
+        expect(np.max(np.std(force, axis=0)) < 0.03 * abs(lift), f"{name}: force scatters by {np.max(np.std(force, axis=0)):.1f} N/m (bound 3 %)")
+
+
 def time_steps():
     for courant in (0.5, 0.02):
         run = Run(f"courant{courant}", tank(0.6, [0, 1.0, 0, 0.8], rectangle(0, 0.25, 0, 0.5), 0.02), sets=[f"cmps.courant={courant}"])
@@ -223,7 +249,7 @@ def notices():
     expect(hasty.status == 0 and change > 0.18 and "pressure_change_per_step" in hasty.messages, f"steps too long for what they resolve: pressure changes by {change:.3f} of itself a step, says: {hasty.messages.strip()[:110]}")
 
 
-for case in (still_water, dam_break, isolated_drops, sloshing, full_box, fleeing_wall, acute_corner, time_steps, almost_nothing,
+for case in (still_water, dam_break, isolated_drops, sloshing, full_box, fleeing_wall, acute_corner, sharp_edges, time_steps, almost_nothing,
              overflow, overturning, notices):
     case()
 finish()

@@ -85,6 +85,35 @@ TEST_P(Corner, HasNoHoleThatLetsWaterThrough) {
 
 INSTANTIATE_TEST_SUITE_P(Angles, Corner, testing::Values(20.0, 35.0, 63.4, 90.0, 120.0, 153.4));
 
+/// A hung wedge of any angle, faces of unequal length: no water finds its tip empty.
+class Edge : public testing::TestWithParam<double> {};
+
+TEST_P(Edge, IsFilledToItsTip) {
+    const double half = 0.5 * GetParam() * M_PI / 180, l0 = 0.01, length = 0.31, other = 0.277;
+    Solid solid;
+    solid.add({{0, 0},
+               {length * std::cos(half), -length * std::sin(half)},
+               {other * std::cos(half), other * std::sin(half)}},
+              0);
+    solid.find_surface({-1, -1}, {1, 1});
+    const auto placed = cmps::place_boundary(solid, l0, -1, 1, 1);
+    for (const double side : {-1.0, 1.0})
+        for (double s = 0.0; s < 0.2; s += 0.001) {
+            double nearest = 1;
+            for (const auto& p : placed)
+                if (p.carries_pressure)
+                    nearest = std::min(nearest,
+                                       std::hypot(p.x - s * std::cos(half), p.z - side * s * std::sin(half)));
+            // half a lattice step along the face, and 0.71 l0 behind it where two sides share a row
+            EXPECT_LT(nearest, std::hypot(0.65, 0.72) * l0) << "at " << s << " from the tip, side " << side;
+        }
+    for (std::size_t a = 0; a < placed.size(); ++a)
+        for (std::size_t b = a + 1; b < placed.size(); ++b)
+            EXPECT_GE(std::hypot(placed[a].x - placed[b].x, placed[a].z - placed[b].z), 0.69 * l0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Angles, Edge, testing::Values(14.0, 20.0, 28.0, 37.0, 45.0, 60.0, 75.0, 90.0));
+
 TEST(InitialState, AreaOfTheWaterIsKeptToOneParticle) {
     const double l0 = 0.013;
     Solid solid;  // 1:2 slope
