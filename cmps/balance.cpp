@@ -14,9 +14,11 @@ namespace cmps {
 
 Balance::Balance(const Scene& scene, const Solid& solid, const NearField& field)
     : scene_(scene), solid_(solid), initial_fluid_(field.particles.fluid), initial_energy_(energy(field)) {
+    if (!scene_.water.empty()) initial_area_ = initial_area(scene_, solid_, nullptr);
     if (scene_.water.empty())
-        initial_volume_ = volume_by_surface(field.particles, solid_, scene_.settings.spacing, scene_.offshore,
-                                            end_of_water(scene_, solid_), lowest_bottom(scene_));
+        initial_volume_ =
+            volume_by_surface(field.particles, solid_, scene_.settings.spacing, scene_.wall_at_start(),
+                              end_of_water(scene_, solid_), lowest_bottom(scene_));
 }
 
 /// Kinetic and potential energy of the water, J per m of width.
@@ -34,9 +36,12 @@ double Balance::energy(const NearField& field) const {
 /// voids have cost.
 void Balance::update(const NearField& field, double wall) {
     const Particles& particles = field.particles;
-    in_solid_ = 0;
+    in_solid_ = 0, outside_ = 0;
+    const double l0 = scene_.settings.spacing, bottom = lowest_bottom(scene_) - l0;
     for (std::size_t i = particles.first_fluid(); i < particles.size(); ++i)
-        in_solid_ += solid_.contains(particles.x[i], particles.z[i]);
+        in_solid_ += solid_.contains(particles.x[i], particles.z[i]),
+            outside_ +=
+            particles.x[i] < wall - l0 || particles.x[i] > scene_.onshore + l0 || particles.z[i] < bottom;
     // over the potential energy of the water standing at its depth
     const Settings& settings = scene_.settings;
     const double scale = 0.5 * settings.pressure.density * 9.81 * settings.depth * settings.spacing *
@@ -90,8 +95,14 @@ void Balance::judge(const NearField& field, double time, std::size_t returned) c
 void Balance::describe(common::RunRecord& record, const NearField& field, std::size_t elsewhere) const {
     const double infinity = std::numeric_limits<double>::infinity();
     const auto missing =
-        static_cast<double>(initial_fluid_) - static_cast<double>(field.particles.fluid + elsewhere);
+        static_cast<double>(initial_fluid_) - static_cast<double>(field.particles.fluid + elsewhere) +
+        static_cast<double>(outside_);  // over the moving wall, say: no part of the water any more
     record.set_invariant({"particle_ledger", missing, "particles", 0.5});
+    if (initial_area_ > 0) {
+        const double l0 = scene_.settings.spacing, count = static_cast<double>(initial_fluid_);
+        record.set_invariant({"initial_volume", count * l0 * l0 / initial_area_ - 1.0, "-",
+                              0.5 * static_cast<double>(scene_.water.size() + 1) / count});
+    }
     if (initial_volume_ > 0) {
         record.set_invariant({"mass_drift", volume_drift_, "-", 0.02});
         record.set_invariant({"largest_mass_drift", largest_volume_drift_, "-", infinity});

@@ -32,8 +32,9 @@ class Balance {
     double energy(const NearField& field) const;
     const Scene& scene_;
     const Solid& solid_;
-    std::size_t initial_fluid_ = 0, in_solid_ = 0;
+    std::size_t initial_fluid_ = 0, in_solid_ = 0, outside_ = 0;
     double initial_volume_ = 0, volume_drift_ = 0, largest_volume_drift_ = 0;
+    double initial_area_ = 0;  // of the polygons of water; 0: none are given
     double initial_energy_ = 0, energy_gain_ = 0, largest_energy_gain_ = 0;
 };
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cmps/scene_geometry.hpp"
+
 namespace cmps {
 
 void decide_effects(const common::SceneFile& file, Scene& scene) {
@@ -64,12 +66,13 @@ void decide_effects(const common::SceneFile& file, Scene& scene) {
                                      steepness > 0.8 ? ">" : "<=", steepness > 0.8 ? "" : "no "));
 
     double crest = -1e300;
-    for (const Polygon& polygon : scene.structure)
-        for (const Point& p : polygon) crest = std::max(crest, p[1]);
+    if (scene.tank || !scene.bed.empty())  // else the scene is refused anyway
+        for (const std::size_t k : barriers(scene, make_solid(scene)))
+            for (const Point& p : scene.structure[k]) crest = std::max(crest, p[1]);
     const double reachable = 1.2 * scene.settings.depth;  // run-up of a breaking standing wave
     const bool blocks = crest > 0 && crest < reachable && scene.water.empty() && !scene.tank;
     decide("overtopping_basin", blocks,
-           crest <= 0           ? "no structure stands above still water"
+           crest <= 0           ? "no structure keeps still water back"
            : crest >= reachable ? fmt::format("crest at {:.2f} m is out of reach", crest)
            : blocks             ? fmt::format("crest at {:.2f} m can be reached", crest)
                                 : "cmps.water says where water stands");

@@ -6,19 +6,78 @@
 namespace cmps {
 namespace {
 
-/// One column of water between z0 and z1; `carry` is the fraction of a particle still owed.
-void fill_column(double x, double width, double z0, double z1, double spacing, double& carry,
+constexpr int lines_of_a_column = 8;
+
+using Intervals = std::vector<std::array<double, 2>>;
+
+double total(const Intervals& intervals) {
+    double sum = 0;
+    for (const auto& [low, high] : intervals) sum += high - low;
+    return sum;
+}
+
+/// Area of a column, m2.
+double area_of_column(double middle, double width, const FreeIntervals& free) {
+    double sum = 0;
+    for (int i = 0; i < lines_of_a_column; ++i)
+        sum += total(free(middle + ((i + 0.5) / lines_of_a_column - 0.5) * width));
+    return sum * width / lines_of_a_column;
+}
+
+/// Calls visit(middle, width) for columns from `from` to `to`, about a spacing wide and none across a
+/// vertical face of the solid or one of `more`.
+template <class Visit>
+void for_columns(const Solid& solid, double spacing, double from, double to, const Polygon& more,
+                 const Visit& visit) {
+    const double same = 1e-6 * spacing;
+    std::vector<double> faces = {from, to};
+    const auto add = [&](const Point& a, const Point& b) {
+        if (std::abs(a[0] - b[0]) < same && a[0] > from + same && a[0] < to - same) faces.push_back(a[0]);
+    };
+    for (const SurfaceSegment& segment : solid.surface()) add(segment.from, segment.to);
+    for (std::size_t i = 0; i < more.size(); ++i) add(more[i], more[(i + 1) % more.size()]);
+    std::sort(faces.begin(), faces.end());
+    for (std::size_t k = 0; k + 1 < faces.size(); ++k) {
+        const double length = faces[k + 1] - faces[k];
+        if (length < same) continue;
+        const int columns = std::max(1, static_cast<int>(std::lround(length / spacing)));
+        const double width = length / columns;
+        for (int c = 0; c < columns; ++c) visit(faces[k] + (c + 0.5) * width, width);
+    }
+}
+
+/// Particles of a column; `carry` is the fraction of a particle still owed.
+void fill_column(double spacing, double middle, double width, const FreeIntervals& free, double& carry,
                  Particles& particles) {
-    const double exact = (z1 - z0) * width / (spacing * spacing) + carry;
-    const int count = static_cast<int>(std::lround(exact));
-    if (count <= 0) {
-        carry = exact;
+    const Intervals intervals = free(middle);
+    const double length = total(intervals), area = area_of_column(middle, width, free);
+    if (length == 0) {
+        carry += area / (spacing * spacing);
         return;
     }
-    carry = exact - count;
-    const double step = (z1 - z0) / count;
-    for (int k = 0; k < count; ++k)
-        particles.add_fluid(x, z0 + (k + 0.5) * step, static_cast<std::int32_t>(particles.fluid));
+    for (const auto& [low, high] : intervals) {
+        const double exact = area * (high - low) / length / (spacing * spacing) + carry;
+        const int count = std::max(0, static_cast<int>(std::lround(exact)));
+        carry = exact - count;
+        const double step = (high - low) / count;
+        for (int k = 0; k < count; ++k)
+            particles.add_fluid(middle, low + (k + 0.5) * step, static_cast<std::int32_t>(particles.fluid));
+    }
+}
+
+/// Extent of a polygon in x, and what of it the solid leaves.
+std::array<double, 2> extent(const Polygon& polygon) {
+    double x0 = 1e300, x1 = -1e300;
+    for (const Point& p : polygon) x0 = std::min(x0, p[0]), x1 = std::max(x1, p[0]);
+    return {x0, x1};
+}
+FreeIntervals outside(const Solid& solid, const Polygon& polygon) {
+    return [&](double x) {
+        Intervals free;
+        for (const auto& [low, high] : intervals_within(polygon, x))
+            for (const auto& interval : solid.free_intervals(x, low, high)) free.push_back(interval);
+        return free;
+    };
 }
 
 }  // namespace
@@ -37,16 +96,28 @@ Particles make_boundary(const std::vector<BoundaryParticle>& placed) {
     return particles;
 }
 
-void fill_water(const Solid& solid, double spacing, double x0, double x1, double bottom,
-                const std::function<double(double)>& surface, Particles& particles) {
-    const int columns = std::max(1, static_cast<int>(std::lround((x1 - x0) / spacing)));
-    const double width = (x1 - x0) / columns;
+double free_area(const Solid& solid, double spacing, double x0, double x1, const FreeIntervals& free) {
+    double area = 0;
+    for_columns(solid, spacing, x0, x1, {},
+                [&](double middle, double width) { area += area_of_column(middle, width, free); });
+    return area;
+}
+
+double free_area(const Solid& solid, double spacing, const Polygon& polygon) {
+    const auto [x0, x1] = extent(polygon);
+    const FreeIntervals free = outside(solid, polygon);
+    double area = 0;
+    for_columns(solid, spacing, x0, x1, polygon,
+                [&](double middle, double width) { area += area_of_column(middle, width, free); });
+    return area;
+}
+
+void fill_water(const Solid& solid, double spacing, double x0, double x1, const FreeIntervals& free,
+                Particles& particles) {
     double carry = 0;
-    for (int c = 0; c < columns; ++c) {
-        const double x = x0 + (c + 0.5) * width, top = surface(x);
-        for (const auto& [low, high] : solid.free_intervals(x, bottom, top))
-            fill_column(x, width, low, high, spacing, carry, particles);
-    }
+    for_columns(solid, spacing, x0, x1, {}, [&](double middle, double width) {
+        fill_column(spacing, middle, width, free, carry, particles);
+    });
 }
 
 void fill_polygons(const Solid& solid, double spacing, const std::vector<Polygon>& water,
@@ -54,28 +125,12 @@ void fill_polygons(const Solid& solid, double spacing, const std::vector<Polygon
     for (std::size_t p = 0; p < water.size(); ++p) {
         const Polygon& polygon = water[p];
         const std::size_t first = particles.size();
-        double x0 = 1e300, x1 = -1e300, z0 = 1e300, z1 = -1e300;
-        for (const Point& corner : polygon) {
-            x0 = std::min(x0, corner[0]), x1 = std::max(x1, corner[0]);
-            z0 = std::min(z0, corner[1]), z1 = std::max(z1, corner[1]);
-        }
-        // the solid's faces may stand inside the polygon: columns follow what is left free
-        const int columns = std::max(1, static_cast<int>(std::lround((x1 - x0) / spacing)));
-        const double width = (x1 - x0) / columns;
+        const auto [x0, x1] = extent(polygon);
+        const FreeIntervals free = outside(solid, polygon);
         double carry = 0;
-        for (int c = 0; c < columns; ++c) {
-            const double x = x0 + (c + 0.5) * width;
-            std::vector<double> cuts;
-            for (std::size_t i = 0; i < polygon.size(); ++i) {
-                const Point &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-                if ((a[0] > x) != (b[0] > x))
-                    cuts.push_back(a[1] + (b[1] - a[1]) * (x - a[0]) / (b[0] - a[0]));
-            }
-            std::sort(cuts.begin(), cuts.end());
-            for (std::size_t k = 0; k + 1 < cuts.size(); k += 2)
-                for (const auto& [low, high] : solid.free_intervals(x, cuts[k], cuts[k + 1]))
-                    fill_column(x, width, low, high, spacing, carry, particles);
-        }
+        for_columns(solid, spacing, x0, x1, polygon, [&](double middle, double width) {
+            fill_column(spacing, middle, width, free, carry, particles);
+        });
         if (velocity.empty()) continue;
         for (std::size_t i = first; i < particles.size(); ++i)
             particles.u[i] = velocity[p][0], particles.w[i] = velocity[p][1];

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cmps/narrow_places.hpp"
 #include "cmps/scene_geometry.hpp"
 #include "cmps/time_table.hpp"
 #include "common/errors.hpp"
@@ -31,20 +32,28 @@ Value chosen(const Section& section, const char* key, const char* about,
     return options.front().second;
 }
 
-void check_polygons(const Section& section, const char* key, std::vector<Polygon>& polygons) {
+/// True where all polygons enclose something; points given twice in a row are taken once.
+bool check_polygons(const Section& section, const char* key, std::vector<Polygon>& polygons) {
+    bool are_sound = true;
     for (std::size_t i = 0; i < polygons.size(); ++i) {
         Polygon& polygon = polygons[i];
+        const auto is_wrong = [&](const std::string& what) {
+            section.problem(key, fmt::format("polygon {} {}", i + 1, what));
+            are_sound = false;
+        };
+        polygon.erase(std::unique(polygon.begin(), polygon.end()), polygon.end());
         if (polygon.size() > 1 && polygon.front() == polygon.back()) polygon.pop_back();
-        if (polygon.size() < 3) {
-            section.problem(key, fmt::format("polygon {} has {} points; a closed polygon needs at least 3",
-                                             i + 1, polygon.size()));
-            continue;
-        }
         std::array<std::size_t, 2> where{};
-        if (crosses_itself(polygon, where))
-            section.problem(
-                key, fmt::format("polygon {} crosses itself: edges {} and {}", i + 1, where[0], where[1]));
+        std::size_t point = 0;
+        if (polygon.size() < 3)
+            is_wrong(fmt::format("has {} points; a closed polygon needs at least 3", polygon.size()));
+        else if (crosses_itself(polygon, where))
+            is_wrong(fmt::format("crosses itself: edges {} and {}", where[0], where[1]));
+        else if (folds_back(polygon, point))
+            is_wrong(fmt::format("folds back on itself at its point {}, ({:g}, {:g})", point,
+                                 polygon[point - 1][0], polygon[point - 1][1]));
     }
+    return are_sound;
 }
 
 /// What an accuracy level stands for. Points of the measured front of error over time (cmps/README.md):
@@ -83,7 +92,12 @@ void check_places(const Section& section, const Scene& scene) {
     const double slack = 1e-9;  // m
     for (std::size_t k = 0; k < scene.structure.size(); ++k) {
         const auto [x0, x1, z0, z1] = extent(scene.structure[k]);
-        if (x1 <= scene.offshore + slack || x0 >= scene.onshore - slack)
+        if (scene.tank && (z1 <= (*scene.tank)[2] + slack || z0 >= (*scene.tank)[3] - slack))
+            section.problem("structure",
+                            fmt::format("polygon {} (z = {:g} to {:g} m) lies outside the tank, z = {:g} to "
+                                        "{:g} m",
+                                        k + 1, z0, z1, (*scene.tank)[2], (*scene.tank)[3]));
+        else if (x1 <= scene.offshore + slack || x0 >= scene.onshore - slack)
             section.problem("structure",
                             fmt::format("polygon {} (x = {:g} to {:g} m) lies outside the near field, x = "
                                         "{:g} to {:g} m",
@@ -101,6 +115,9 @@ void check_places(const Section& section, const Scene& scene) {
         if (!scene.tank && (x0 < scene.offshore - slack || x1 > scene.onshore + slack))
             section.problem("water", fmt::format("{} leaves the near field, x = {:g} to {:g} m", where,
                                                  scene.offshore, scene.onshore));
+        else if (scene.drive == Drive::piston && x0 < scene.wall_at_start() - slack)
+            section.problem("water", fmt::format("{} stands behind the piston, which starts at x = {:g} m",
+                                                 where, scene.wall_at_start()));
         for (std::size_t m = 0; m < k; ++m)
             if (overlap(scene.water[m], scene.water[k]))
                 section.problem("water", fmt::format("polygons {} and {} overlap: their water would stand "
@@ -119,7 +136,8 @@ void read_water_velocity(const Section& section, Scene& scene) {
                                     scene.water_velocity.size(), scene.water.size()));
 }
 
-void read_geometry(const common::SceneFile& file, const Section& section, Scene& scene) {
+/// True where the geometry is complete and can be judged further.
+bool read_geometry(const common::SceneFile& file, const Section& section, Scene& scene) {
     if (section.has("tank")) {
         const auto box =
             section.numbers("tank", "m", "closed box x0, x1, z0, z1 instead of a flume bed", 4, Range::any());
@@ -136,19 +154,101 @@ void read_geometry(const common::SceneFile& file, const Section& section, Scene&
     scene.onshore = section.number("onshore", "m", "x of the shoreward end", Range::any(), x1);
     scene.structure =
         section.polygons("structure", "m", "closed polygons of the structure", std::vector<Polygon>{});
-    check_polygons(section, "structure", scene.structure);
+    bool is_sound = check_polygons(section, "structure", scene.structure);
     scene.water = section.polygons(
         "water", "m",
         "closed polygons filled with water at the start; none: below z = 0 between wall and structure",
         std::vector<Polygon>{});
-    check_polygons(section, "water", scene.water);
+    is_sound &= check_polygons(section, "water", scene.water);
     read_water_velocity(section, scene);
     if (scene.onshore <= scene.offshore)
         section.problem("onshore", fmt::format("must lie shoreward of cmps.offshore = {:g}", scene.offshore));
     if (!scene.tank && !scene.bed.empty() && (scene.offshore < x0 || scene.onshore > x1))
         section.problem(scene.offshore < x0 ? "offshore" : "onshore",
                         fmt::format("lies outside the flume's bed, x = {:g} to {:g} m", x0, x1));
-    if (scene.onshore > scene.offshore && (scene.tank || !scene.bed.empty())) check_places(section, scene);
+    return is_sound && scene.onshore > scene.offshore && (scene.tank || !scene.bed.empty());
+}
+
+/// A tank has its own walls; only a piston may stand elsewhere in it.
+void check_tank_ends(const Section& section, const Scene& scene) {
+    if (!scene.tank) return;
+    const auto [x0, x1, z0, z1] = *scene.tank;
+    if (scene.drive == Drive::waves)
+        section.problem("drive", "waves come into a flume, not into a tank: give flume.bed, or a piston");
+    if (scene.drive == Drive::none && scene.offshore != x0)
+        section.problem("offshore",
+                        fmt::format("the tank's wall stands at x = {:g} m: only a piston may stand "
+                                    "elsewhere",
+                                    x0));
+    if (scene.drive == Drive::piston && (scene.offshore < x0 || scene.offshore >= x1))
+        section.problem("offshore", fmt::format("lies outside the tank, x = {:g} to {:g} m", x0, x1));
+    if (scene.onshore != x1)
+        section.problem("onshore", fmt::format("the tank's wall stands at x = {:g} m", x1));
+}
+
+/// The moving wall must have its way free.
+void check_wall_path(const Section& section, const Scene& scene) {
+    if (scene.drive == Drive::none) return;
+    const bool is_piston = scene.drive == Drive::piston;
+    const double from = scene.offshore + scene.piston.least, to = scene.offshore + scene.piston.most;
+    const double room = 4 * scene.settings.spacing;
+    for (const Polygon& polygon : scene.structure) {
+        const auto [x0, x1, z0, z1] = extent(polygon);
+        if (to <= x0 - room || from >= x1) continue;
+        section.problem(
+            is_piston && scene.offshore <= x0 - room ? "piston_file" : "offshore",
+            fmt::format("the moving wall at x = {:g} m stands in the structure (x = {:g} to {:g} m) or less "
+                        "than four particles ahead of it",
+                        to, x0, x1));
+    }
+    if (is_piston && to > scene.onshore - room)
+        section.problem("piston_file",
+                        fmt::format("the piston goes to x = {:g} m, through the shoreward end at {:g} m", to,
+                                    scene.onshore));
+}
+
+/// What particles of this spacing cannot resolve.
+void check_narrow_places(const Section& section, const Scene& scene, const Solid& solid) {
+    const double l0 = scene.settings.spacing, top = out_of_reach(scene);
+    const auto where = [&](const NarrowPlace& place) {
+        return fmt::format("at ({:.4g}, {:.4g}) m", place.at[0], place.at[1]);
+    };
+    const auto key = [](const NarrowPlace& place) {
+        return std::max(place.body, place.opposite) >= 0 ? "structure" : "particle_spacing";
+    };
+    const auto spacing_that_does = [](double most) {  // rounded down to two digits
+        const double digit = std::pow(10.0, std::floor(std::log10(most)) - 1);
+        return std::floor(most / digit * (1 + 1e-9)) * digit;
+    };
+    const double thickness = std::max(least_thickness, scene.settings.kernel_radius_ratio);
+    if (const auto place = thinnest_body(solid, thickness * l0, l0, top))
+        section.problem(
+            key(*place),
+            fmt::format(
+                "{} it is {:.3g} m thick, thinner than {:g} particles of {:g} m: the pressures of its "
+                "two sides would mix; a particle_spacing of {:g} m would do",
+                where(*place), place->width, thickness, l0, spacing_that_does(place->width / thickness)));
+    if (const auto place = narrowest_gap(solid, l0, top))
+        section.problem(
+            key(*place),
+            fmt::format("{} a gap is {:.3g} m wide, narrower than {:g} particles of {:g} m: close it; a "
+                        "particle_spacing of {:g} m would do",
+                        where(*place), place->width, least_gap, l0,
+                        spacing_that_does(place->width / least_gap)));
+}
+
+/// Gauges in the solid have no water to read. On its face they may stand.
+void check_gauges(const common::SceneFile& file, const Scene& scene, const Solid& solid) {
+    using Kind = common::Gauge::Kind;
+    for (const common::Gauge& gauge : scene.gauges) {
+        if (gauge.kind != Kind::pressure && gauge.kind != Kind::velocity) continue;
+        if (gauge.x < scene.offshore || gauge.x > scene.onshore) continue;  // another stage's
+        std::size_t nearest = 0;
+        if (!solid.contains(gauge.x, gauge.z)) continue;
+        if (solid.distance(gauge.x, gauge.z, nearest) <= 0.1 * scene.settings.spacing) continue;
+        file.section("gauges").problem(
+            gauge.name, fmt::format("({:g}, {:g}) m lies inside bed, structure or walls", gauge.x, gauge.z));
+    }
 }
 
 void read_numerics(const common::SceneFile& file, const Section& section, Scene& scene, double depth) {
@@ -158,7 +258,12 @@ void read_numerics(const common::SceneFile& file, const Section& section, Scene&
                                       "l0; default: a whole number of particles over the depth at the wall "
                                       "(draft 16, standard 24, fine 30)",
                                       Range::positive(), depth / level.over_depth);
-    if (settings.spacing > 0.34 * depth)
+    const auto is_drop = [&](const Polygon& polygon) {  // a few particles, side by side too
+        const auto [x0, x1, z0, z1] = extent(polygon);
+        return x1 - x0 < 3 * settings.spacing && z1 - z0 < 3 * settings.spacing;
+    };
+    if (settings.spacing > 0.34 * depth &&
+        (scene.water.empty() || !std::all_of(scene.water.begin(), scene.water.end(), is_drop)))
         section.problem(
             "particle_spacing",
             fmt::format(
@@ -170,6 +275,9 @@ void read_numerics(const common::SceneFile& file, const Section& section, Scene&
         for (const Polygon& polygon : scene.water) area += std::abs(signed_area(polygon));
     }
     const double particles = area / (settings.spacing * settings.spacing);
+    if (!scene.water.empty() && particles < 0.5)
+        section.problem("water", fmt::format("holds {:.2g} particles of {:g} m: no water at all", particles,
+                                             settings.spacing));
     if (particles > most_particles)
         section.problem("particle_spacing", fmt::format("{:g} m makes about {:.1e} particles; at most {:.0e} "
                                                         "fit into the memory of a machine",
@@ -243,15 +351,19 @@ void read_numerics(const common::SceneFile& file, const Section& section, Scene&
     const auto gravity = section.numbers("gravity", "m/s2", "x and z component", 2, Range::any(),
                                          std::vector<double>{0.0, -9.81});
     settings.gravity_x = gravity[0], settings.gravity_z = gravity[1];
+    if (section.has("gravity") && section.has("gravity_file"))
+        section.problem("gravity", "cmps.gravity_file says it too: give one of them");
 }
 
 /// A table that cannot be read is found before anything runs.
-void check_table(const Section& section, const char* key, const std::filesystem::path& path, int columns) {
-    if (path.empty()) return;
+std::optional<TimeTable> read_table(const Section& section, const char* key,
+                                    const std::filesystem::path& path, int columns) {
+    if (path.empty()) return {};
     try {
-        TimeTable(path, columns);
+        return TimeTable(path, columns);
     } catch (const common::InputError& error) {
         section.problem(key, error.what());
+        return {};
     }
 }
 
@@ -289,11 +401,13 @@ void read_drive(const Section& section, Scene& scene, double depth) {
         section, "drive", "what moves the offshore wall: windows of boussinesq, a piston's path, nothing",
         {{"waves", Drive::waves}, {"piston", Drive::piston}, {"none", Drive::none}},
         scene.tank ? "none" : "waves");
-    scene.piston_file =
-        section.file("piston_file", "CSV: t, displacement of the wall", scene.drive == Drive::piston);
+    scene.piston_file = section.file("piston_file", "CSV: t, displacement of the wall from cmps.offshore",
+                                     scene.drive == Drive::piston);
     scene.gravity_file = section.file("gravity_file", "CSV: t, gx, gz", false);
-    check_table(section, "piston_file", scene.piston_file, 2);
-    check_table(section, "gravity_file", scene.gravity_file, 3);
+    const auto piston = read_table(section, "piston_file", scene.piston_file, 2);
+    read_table(section, "gravity_file", scene.gravity_file, 3);
+    if (!scene.piston_file.empty() && scene.drive != Drive::piston)
+        section.problem("piston_file", "nothing moves by it: cmps.drive is not \"piston\"");
     scene.boundary = chosen<Boundary>(
         section, "boundary", "offshore: relaxation zone, the paper's overflowing wall, or both",
         {{"relaxation", Boundary::relaxation}, {"paper", Boundary::paper}, {"both", Boundary::both}},
@@ -319,6 +433,13 @@ void read_drive(const Section& section, Scene& scene, double depth) {
         section.choice("start", "time at which the near field starts, or \"arrival\"", {"arrival"},
                        "arrival");
     scene.viscosity_is_given = section.has("viscosity");
+    if (piston && scene.drive == Drive::piston) {
+        const auto [least, most] = piston->range(1);
+        scene.piston = {.start = piston->value(1, scene.start.value_or(0.0)),
+                        .least = least,
+                        .most = most,
+                        .fastest = piston->fastest(1)};
+    }
     scene.viscosity = section.number("viscosity", "m2/s", "kinematic; used by the effect viscosity",
                                      Range::not_negative(), 1e-6);
     scene.smagorinsky = section.number("smagorinsky", "-", "constant of the sub-particle turbulence",
@@ -391,7 +512,7 @@ Scene read_scene(const common::SceneFile& file) {
     Scene scene;
     scene.time = common::read_time(file);
     const Section section = file.section("cmps");
-    read_geometry(file, section, scene);
+    bool is_sound = read_geometry(file, section, scene);
     const bool is_readable = scene.tank || !scene.bed.empty();
     double depth = is_readable ? -bottom_level(scene, scene.offshore) : 1.0;
     if (!scene.water.empty()) {
@@ -416,19 +537,17 @@ Scene read_scene(const common::SceneFile& file) {
             file.section("gauges").problem(
                 gauge.name, fmt::format("interval {:g} s: more than {:.0e} records in a window",
                                         gauge.interval, most_gauge_samples));
-    for (const Polygon& polygon : scene.structure) {
-        double x0 = 1e300, x1 = -1e300;
-        for (const Point& p : polygon) x0 = std::min(x0, p[0]), x1 = std::max(x1, p[0]);
-        if (scene.drive != Drive::none && scene.offshore > x0 - 4 * scene.settings.spacing &&
-            scene.offshore < x1)
-            section.problem("offshore",
-                            fmt::format("the moving wall at x = {:g} m stands in the structure (x = {:g} to "
-                                        "{:g} m) or less than four particles ahead of it",
-                                        scene.offshore, x0, x1));
-    }
     if (scene.drive == Drive::waves && scene.offshore < scene.onshore &&
         scene.offshore + scene.relaxation_length > scene.onshore && scene.boundary != Boundary::paper)
         section.problem("relaxation_length", "the relaxation zone is longer than the near field");
+    check_tank_ends(section, scene);
+    is_sound &= scene.settings.spacing > 1e-4 * depth && scene.settings.spacing < depth;
+    if (!is_sound) return scene;
+    check_places(section, scene);
+    check_wall_path(section, scene);
+    const Solid solid = make_solid(scene);
+    check_narrow_places(section, scene, solid);
+    check_gauges(file, scene, solid);
     return scene;
 }
 

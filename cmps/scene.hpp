@@ -18,6 +18,12 @@ namespace cmps {
 enum class Drive { waves, piston, none };
 enum class Boundary { relaxation, paper, both };
 
+/// What the file of a piston says of its path: displacements from cmps.offshore, m, and its speed, m/s.
+struct PistonRange {
+    double start = 0;  ///< when the near field starts
+    double least = 0, most = 0, fastest = 0;
+};
+
 /// The stage's part of a scene.
 struct Scene {
     common::TimeSection time;
@@ -35,6 +41,7 @@ struct Scene {
     // drive
     Drive drive = Drive::waves;
     std::filesystem::path piston_file, gravity_file;
+    PistonRange piston;
     Boundary boundary = Boundary::relaxation;
     double crest_lowering = 0;       ///< h_of of eq. (7), m
     double relaxation_length = 0;    ///< m
@@ -53,6 +60,9 @@ struct Scene {
     FlowGridSettings flow;
     bool has_flow = false;
     double particles_interval = 0, flow_smoothing = 0;  ///< s
+
+    /// Face of the moving wall when the near field starts, m.
+    double wall_at_start() const { return offshore + piston.start; }
 
     // effects, decided
     std::vector<common::EffectRecord> effects;

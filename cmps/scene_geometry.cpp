@@ -4,20 +4,52 @@
 #include <cmath>
 
 #include "cmps/initial_state.hpp"
+#include "cmps/narrow_places.hpp"
 
 namespace cmps {
 namespace {
 
-/// Four columns of wall that start on the bed, their face at x.
+/// How far water runs up a wall that moves as fast as this scene's, m: waves before they break, or the bore
+/// ahead of a piston (v sqrt(h/g)) and the jet up its face (v2/2g).
+double run_up(const Scene& scene) {
+    const double g = 9.81, h = scene.settings.depth, v = scene.piston.fastest;
+    return std::max(0.75 * h, v * std::sqrt(h / g) + 0.5 * v * v / g);
+}
+
+/// Four columns of wall that start on the bed, their face at wall_at_start().
 void add_moving_wall(const Scene& scene, std::vector<BoundaryParticle>& placed) {
     const double l0 = scene.settings.spacing;
-    const double top = 0.75 * scene.settings.depth;  // above the highest crest before waves break
+    double top = highest_water(scene) + run_up(scene);
+    if (scene.tank) top = std::min(top, (*scene.tank)[3]);
     for (int layer = 0; layer < 4; ++layer) {
-        const double x = scene.offshore - (layer + 0.5) * l0;
+        const double x = scene.wall_at_start() - (layer + 0.5) * l0;
         for (double z = bottom_level(scene, x) + 0.5 * l0; z < top; z += l0)
             placed.push_back(
                 {.x = x, .z = z, .normal = {1, 0}, .body = body_moving_wall, .carries_pressure = layer == 0});
     }
+}
+
+/// How far behind cmps.offshore the moving wall may go, m.
+double farthest_retreat(const Scene& scene) {
+    if (scene.drive == Drive::none) return 0.0;
+    const double of_waves = std::max(1.0, 2.0 * scene.settings.depth);  // more than a wave moves water
+    return scene.drive == Drive::waves ? of_waves : std::max(0.0, -scene.piston.least);
+}
+
+/// No water between bed and z = 0 at x.
+bool is_blocked(const Scene& scene, const Solid& solid, double x) {
+    double open = 0;
+    for (const auto& [low, high] :
+         solid.free_intervals(x, lowest_bottom(scene) - scene.settings.spacing, 0.0))
+        open += high - low;
+    return open < closed_gap * scene.settings.spacing;
+}
+
+/// Where the water of the start stands at x, intervals [z0, z1].
+std::vector<std::array<double, 2>> still_water_at(const Scene& scene, const Solid& solid,
+                                                  const WaveField* waves, double x) {
+    return solid.free_intervals(x, lowest_bottom(scene) - scene.settings.spacing,
+                                waves ? waves->surface_elevation(x) : 0.0);
 }
 
 }  // namespace
@@ -29,15 +61,19 @@ double bottom_level(const Scene& scene, double x) {
 Solid make_solid(const Scene& scene) {
     const double thick = 6.0 * scene.settings.spacing;  // more than the four layers behind a face
     Solid solid;
-    double x0 = scene.offshore - 3.0, x1 = scene.onshore, low = 0, high = 1e3;
+    const double behind =
+        std::max(3.0, farthest_retreat(scene) + 2 * thick);  // bed below the wall wherever it goes
+    double x0 = scene.offshore - behind, x1 = scene.onshore, low = 0, high = 1e3;
     if (scene.tank) {
         const auto [a, b, c, d] = *scene.tank;
-        x0 = a, x1 = b, low = c, high = d;
-        solid.add({{a - thick, c - thick}, {b + thick, c - thick}, {b + thick, c}, {a - thick, c}}, body_bed);
-        solid.add({{a - thick, d}, {b + thick, d}, {b + thick, d + thick}, {a - thick, d + thick}},
-                  body_end_wall);
-        solid.add({{a - thick, c - thick}, {a, c - thick}, {a, d + thick}, {a - thick, d + thick}},
-                  body_end_wall);
+        const bool has_piston = scene.drive == Drive::piston;  // in place of the offshore wall
+        const double left = has_piston ? x0 - thick : a - thick;
+        x0 = has_piston ? x0 : a, x1 = b, low = c, high = d;
+        solid.add({{left, c - thick}, {b + thick, c - thick}, {b + thick, c}, {left, c}}, body_bed);
+        solid.add({{left, d}, {b + thick, d}, {b + thick, d + thick}, {left, d + thick}}, body_end_wall);
+        if (!has_piston)
+            solid.add({{a - thick, c - thick}, {a, c - thick}, {a, d + thick}, {a - thick, d + thick}},
+                      body_end_wall);
         solid.add({{b, c - thick}, {b + thick, c - thick}, {b + thick, d + thick}, {b, d + thick}},
                   body_end_wall);
     } else {
@@ -64,20 +100,51 @@ Solid make_solid(const Scene& scene) {
     return solid;
 }
 
+double highest_water(const Scene& scene) {
+    double level = scene.water.empty() ? 0.0 : -1e300;
+    for (const Polygon& polygon : scene.water)
+        for (const Point& p : polygon) level = std::max(level, p[1]);
+    return level;
+}
+
+double out_of_reach(const Scene& scene) {
+    return scene.tank ? 1e3 : highest_water(scene) + 2.0 * scene.settings.depth;
+}
+
 double end_of_water(const Scene& scene, const Solid& solid) {
-    for (double x = scene.offshore; x < scene.onshore; x += 0.25 * scene.settings.spacing)
-        if (solid.contains(x, 0.0)) return x;
+    const double step = 0.25 * scene.settings.spacing;
+    for (double x = scene.wall_at_start(); x < scene.onshore; x += step) {
+        if (!is_blocked(scene, solid, x)) continue;
+        double open = std::max(x - step, scene.wall_at_start()), blocked = x;
+        for (int i = 0; i < 40; ++i) {
+            const double middle = 0.5 * (open + blocked);
+            (is_blocked(scene, solid, middle) ? blocked : open) = middle;
+        }
+        return blocked;
+    }
     return scene.onshore;
 }
 
-double rear_of_structure(const Scene& scene) {
-    double rear = scene.onshore;
-    for (const Polygon& polygon : scene.structure) {
-        double x1 = -1e300, z1 = -1e300;
-        for (const Point& p : polygon) x1 = std::max(x1, p[0]), z1 = std::max(z1, p[1]);
-        if (z1 > 0) rear = x1;
+std::vector<std::size_t> barriers(const Scene& scene, const Solid& solid) {
+    std::vector<std::size_t> found;
+    for (std::size_t k = 0; k < scene.structure.size(); ++k) {
+        double x0 = 1e300, x1 = -1e300, z1 = -1e300;
+        for (const Point& p : scene.structure[k])
+            x0 = std::min(x0, p[0]), x1 = std::max(x1, p[0]), z1 = std::max(z1, p[1]);
+        const int places = static_cast<int>(std::ceil((x1 - x0) / (0.25 * scene.settings.spacing)));
+        bool is_barrier = false;
+        for (int i = 0; i < places && !is_barrier && z1 > 0; ++i)
+            is_barrier = is_blocked(scene, solid, x0 + (i + 0.5) / places * (x1 - x0));
+        if (is_barrier) found.push_back(k);
     }
-    return rear;
+    return found;
+}
+
+double rear_of_structure(const Scene& scene, const Solid& solid) {
+    double rear = -1e300;
+    for (const std::size_t k : barriers(scene, solid))
+        for (const Point& p : scene.structure[k]) rear = std::max(rear, p[0]);
+    return rear > -1e300 ? std::min(rear, scene.onshore) : scene.onshore;
 }
 
 double lowest_bottom(const Scene& scene) {
@@ -87,18 +154,23 @@ double lowest_bottom(const Scene& scene) {
     return lowest;
 }
 
+double initial_area(const Scene& scene, const Solid& solid, const WaveField* waves) {
+    const double l0 = scene.settings.spacing;
+    if (!scene.water.empty()) {
+        double area = 0;
+        for (const Polygon& polygon : scene.water) area += free_area(solid, l0, polygon);
+        return area;
+    }
+    return free_area(solid, l0, scene.wall_at_start(), end_of_water(scene, solid),
+                     [&](double x) { return still_water_at(scene, solid, waves, x); });
+}
+
 Particles initial_particles(const Scene& scene, const Solid& solid, const WaveField* waves) {
     const double l0 = scene.settings.spacing, margin = 6 * l0;
-    const double x0 = scene.offshore - (scene.drive == Drive::none ? margin : 1.0);
-    double top = 1e3;
-    if (!scene.tank) {  // walls no water can reach are not needed
-        top = 2.0 * scene.settings.depth;
-        for (const Polygon& polygon : scene.water)
-            for (const Point& p : polygon) top = std::max(top, p[1] + 2.0 * scene.settings.depth);
-    }
+    const double x0 = scene.offshore - (scene.drive == Drive::waves ? 0.0 : margin) - farthest_retreat(scene);
     const bool has_basin = scene.has_effect("overtopping_basin");
-    const double x1 = has_basin ? rear_of_structure(scene) + margin : scene.onshore + margin;
-    auto placed = place_boundary(solid, l0, x0, x1, top);
+    const double x1 = (has_basin ? rear_of_structure(scene, solid) : scene.onshore) + margin;
+    auto placed = place_boundary(solid, l0, x0, x1, out_of_reach(scene));
     if (scene.drive != Drive::none) add_moving_wall(scene, placed);
     Particles particles = make_boundary(placed);
     if (!scene.water.empty()) {
@@ -106,8 +178,8 @@ Particles initial_particles(const Scene& scene, const Solid& solid, const WaveFi
         return particles;
     }
     fill_water(
-        solid, l0, scene.offshore, end_of_water(scene, solid), lowest_bottom(scene) - l0,
-        [&](double x) { return waves ? waves->surface_elevation(x) : 0.0; }, particles);
+        solid, l0, scene.wall_at_start(), end_of_water(scene, solid),
+        [&](double x) { return still_water_at(scene, solid, waves, x); }, particles);
     if (waves)
         for (std::size_t i = particles.first_fluid(); i < particles.size(); ++i)
             waves->velocity(particles.x[i], particles.z[i], particles.u[i], particles.w[i]);

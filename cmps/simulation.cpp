@@ -14,14 +14,6 @@ namespace {
 
 constexpr std::size_t steps_between_stocks = 400;  // a stock costs as much as one or two steps
 
-/// Level of the water at the start, for the first guess of its pressure, m.
-double highest_water(const Scene& scene) {
-    double surface = 0;
-    for (const Polygon& polygon : scene.water)
-        for (const Point& p : polygon) surface = std::max(surface, p[1]);
-    return surface;
-}
-
 }  // namespace
 
 Simulation::Simulation(const Scene& scene, WaveField* waves, double start)
@@ -51,7 +43,7 @@ void Simulation::compose_effects() {
     if (scene_.drive == Drive::waves) add_offshore_boundary();
     if (scene_.drive == Drive::piston) {
         const auto path = std::make_shared<TimeTable>(scene_.piston_file, 2);
-        wall_ = add_effect<MovingWall>(scene_.offshore, [path](double time, double step, double) {
+        wall_ = add_effect<MovingWall>(scene_.wall_at_start(), [path](double time, double step, double) {
             return (path->value(1, time + step) - path->value(1, time)) / step;
         });
     }
@@ -59,7 +51,7 @@ void Simulation::compose_effects() {
     if (scene_.has_effect("viscosity")) add_effect<Viscosity>(scene_.viscosity);
     if (scene_.has_effect("turbulence")) add_effect<Turbulence>(scene_.smagorinsky);
     if (scene_.has_effect("overtopping_basin"))
-        basin_ = add_effect<OvertoppingBasin>(rear_of_structure(scene_));
+        basin_ = add_effect<OvertoppingBasin>(rear_of_structure(scene_, solid_));
 }
 
 void Simulation::add_offshore_boundary() {

@@ -43,17 +43,6 @@ bool edges_cross(const Point& a, const Point& b, const Point& c, const Point& d)
     return side_c * side_d < 0 && side_a * side_b < 0;
 }
 
-bool on_border(const Polygon& polygon, const Point& point) {
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const Point &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-        const Point ab = minus(b, a), ap = minus(point, a);
-        const double length2 = ab[0] * ab[0] + ab[1] * ab[1];
-        const double s = length2 > 0 ? std::clamp((ap[0] * ab[0] + ap[1] * ab[1]) / length2, 0.0, 1.0) : 0.0;
-        if (std::hypot(ap[0] - s * ab[0], ap[1] - s * ab[1]) < 1e-9) return true;
-    }
-    return false;
-}
-
 /// Parameters on a-b where c-d meets it.
 void add_cuts(const Point& a, const Point& b, const Point& c, const Point& d, std::vector<double>& cuts) {
     const Point ab = minus(b, a), cd = minus(d, c), ac = minus(c, a);
@@ -153,6 +142,21 @@ std::vector<std::array<double, 2>> Solid::free_intervals(double x, double bottom
     return free;
 }
 
+double ball_behind(const Solid& solid, const Point& at, const Point& normal, double most) {
+    const auto fits = [&](double depth) {
+        std::size_t nearest = 0;
+        const double x = at[0] - depth * normal[0], z = at[1] - depth * normal[1];
+        return solid.contains(x, z) && solid.distance(x, z, nearest) > depth * (1 - 1e-6);
+    };
+    if (fits(most)) return most;
+    double low = 0, high = most;
+    for (int i = 0; i < 30; ++i) {
+        const double middle = 0.5 * (low + high);
+        (fits(middle) ? low : high) = middle;
+    }
+    return low;
+}
+
 double signed_area(const Polygon& polygon) {
     double twice = 0;
     for (std::size_t i = 0; i < polygon.size(); ++i)
@@ -160,22 +164,55 @@ double signed_area(const Polygon& polygon) {
     return 0.5 * twice;
 }
 
+/// Between two ends of edges or crossings, side by side in x, no edges of a and b cross: a line at the middle
+/// shows whether anything lies in both.
 bool overlap(const Polygon& a, const Polygon& b) {
+    std::vector<double> x;
+    for (const Polygon* polygon : {&a, &b})
+        for (const Point& p : *polygon) x.push_back(p[0]);
     for (std::size_t i = 0; i < a.size(); ++i)
-        for (std::size_t k = 0; k < b.size(); ++k)
-            if (edges_cross(a[i], a[(i + 1) % a.size()], b[k], b[(k + 1) % b.size()])) return true;
-    // no edges cross: apart, side by side, or one inside the other
-    const auto holds_a_point_of = [](const Polygon& outer, const Polygon& other) {
-        for (std::size_t i = 0; i < other.size(); ++i)
-            for (std::size_t k = i + 1; k < other.size(); ++k) {
-                const Point middle = along(other[i], other[k], 0.5);
-                if (inside(outer, middle[0], middle[1]) && inside(other, middle[0], middle[1]) &&
-                    !on_border(outer, middle))
-                    return true;
-            }
-        return false;
-    };
-    return holds_a_point_of(a, b) || holds_a_point_of(b, a);
+        for (std::size_t k = 0; k < b.size(); ++k) {
+            const Point &from = a[i], &to = a[(i + 1) % a.size()];
+            std::vector<double> cuts;
+            add_cuts(from, to, b[k], b[(k + 1) % b.size()], cuts);
+            for (const double s : cuts)
+                if (s > 0 && s < 1) x.push_back(along(from, to, s)[0]);
+        }
+    std::sort(x.begin(), x.end());
+    constexpr double sliver = 1e-9;  // m: rounding of borders that are the same
+    for (std::size_t m = 0; m + 1 < x.size(); ++m) {
+        if (x[m + 1] - x[m] < sliver) continue;
+        const double middle = 0.5 * (x[m] + x[m + 1]);
+        for (const auto& [low, high] : intervals_within(a, middle))
+            for (const auto& [bottom, top] : intervals_within(b, middle))
+                if (std::min(high, top) - std::max(low, bottom) > sliver) return true;
+    }
+    return false;
+}
+
+std::vector<std::array<double, 2>> intervals_within(const Polygon& polygon, double x) {
+    std::vector<double> cuts;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Point &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+        if ((a[0] > x) != (b[0] > x)) cuts.push_back(a[1] + (b[1] - a[1]) * (x - a[0]) / (b[0] - a[0]));
+    }
+    std::sort(cuts.begin(), cuts.end());
+    std::vector<std::array<double, 2>> intervals;
+    for (std::size_t k = 0; k + 1 < cuts.size(); k += 2) intervals.push_back({cuts[k], cuts[k + 1]});
+    return intervals;
+}
+
+bool folds_back(const Polygon& polygon, std::size_t& where) {
+    const std::size_t n = polygon.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const Point in = minus(polygon[(i + 1) % n], polygon[i]),
+                    out = minus(polygon[(i + 2) % n], polygon[(i + 1) % n]);
+        const double size = std::hypot(in[0], in[1]) * std::hypot(out[0], out[1]);
+        if (std::abs(cross(in, out)) > 1e-9 * size || in[0] * out[0] + in[1] * out[1] >= 0) continue;
+        where = (i + 1) % n + 1;
+        return true;
+    }
+    return false;
 }
 
 bool crosses_itself(const Polygon& polygon, std::array<std::size_t, 2>& where) {
@@ -217,22 +254,6 @@ class Occupied {
     double cell_;
     std::unordered_map<std::int64_t, std::vector<Point>> cells_;
 };
-
-/// The largest ball within the solid that touches the face at `at`: its radius, up to `most`.
-double ball_behind(const Solid& solid, const Point& at, const Point& normal, double most) {
-    const auto fits = [&](double depth) {
-        std::size_t nearest = 0;
-        const double x = at[0] - depth * normal[0], z = at[1] - depth * normal[1];
-        return solid.contains(x, z) && solid.distance(x, z, nearest) > depth * (1 - 1e-6);
-    };
-    if (fits(most)) return most;
-    double low = 0, high = most;
-    for (int i = 0; i < 30; ++i) {
-        const double middle = 0.5 * (low + high);
-        (fits(middle) ? low : high) = middle;
-    }
-    return low;
-}
 
 /// Where a particle of the layer whose depth is `depth` stands behind a face whose ball has the radius
 /// `ball`: two sides that come nearer than two layers of each share the one between them.

@@ -45,11 +45,21 @@ class Solid {
     std::vector<SurfaceSegment> surface_;
 };
 
+/// Radius of the largest ball within the solid that touches the face at `at` from behind, up to `most`, m.
+double ball_behind(const Solid& solid, const Point& at, const Point& normal, double most);
+
 /// Area enclosed by a polygon, m2; positive when it runs anticlockwise.
 double signed_area(const Polygon& polygon);
 
 /// True where two polygons share more than their borders.
 bool overlap(const Polygon& a, const Polygon& b);
+
+/// What of the vertical line at x lies within the polygon: intervals [z0, z1], m.
+std::vector<std::array<double, 2>> intervals_within(const Polygon& polygon, double x);
+
+/// True where an edge of the closed polygon runs back along the one before it; `where` gets their point (from
+/// 1).
+bool folds_back(const Polygon& polygon, std::size_t& where);
 
 /// True where the closed polygon crosses itself; `where` gets the two edges (from 1).
 bool crosses_itself(const Polygon& polygon, std::array<std::size_t, 2>& where);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -12,6 +13,20 @@
 
 namespace cmps {
 
+namespace {
+
+/// True for a line of words: "nan" and "inf" are numbers, though none that a table may hold.
+bool is_head(const std::string& line) {
+    std::istringstream words(line);
+    std::string first;
+    words >> first;
+    char* end = nullptr;
+    std::strtod(first.c_str(), &end);
+    return end == first.c_str() || (*end != '\0' && std::isalpha(static_cast<unsigned char>(first[0])) != 0);
+}
+
+}  // namespace
+
 TimeTable::TimeTable(const std::filesystem::path& file, std::size_t columns) : columns_(columns) {
     std::ifstream stream(file);
     if (!stream) throw common::InputError(fmt::format("{}: cannot be read", file.string()));
@@ -19,9 +34,8 @@ TimeTable::TimeTable(const std::filesystem::path& file, std::size_t columns) : c
     for (int number = 1; std::getline(stream, line); ++number) {
         std::replace(line.begin(), line.end(), ',', ' ');
         const auto start = line.find_first_not_of(" \t\r");
-        if (start == std::string::npos || (std::isdigit(static_cast<unsigned char>(line[start])) == 0 &&
-                                           line[start] != '-' && line[start] != '+' && line[start] != '.'))
-            continue;
+        if (start == std::string::npos || line[start] == '#') continue;
+        if (columns_[0].empty() && is_head(line)) continue;
         std::istringstream words(line);
         for (std::size_t c = 0; c < columns; ++c) {
             double value = 0;
@@ -76,6 +90,19 @@ double TimeTable::mean(std::size_t column, double from, double to) const {
         begin = end;
     }
     return sum / (to - from);
+}
+
+std::array<double, 2> TimeTable::range(std::size_t column) const {
+    const auto [least, greatest] = std::minmax_element(columns_[column].begin(), columns_[column].end());
+    return {*least, *greatest};
+}
+
+double TimeTable::fastest(std::size_t column) const {
+    double rate = 0;
+    for (std::size_t i = 0; i + 1 < columns_[0].size(); ++i)
+        rate = std::max(rate, std::abs(columns_[column][i + 1] - columns_[column][i]) /
+                                  (columns_[0][i + 1] - columns_[0][i]));
+    return rate;
 }
 
 }  // namespace cmps

@@ -1,7 +1,8 @@
-/// Columns over time from a text file (commas or blanks between numbers; lines that do not start with a
-/// number are heads).
+/// Columns over time from a text file: commas or blanks between numbers; words are heads before the first
+/// numbers, lines that begin with # may stand anywhere.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <vector>
 
@@ -17,6 +18,10 @@ class TimeTable {
     double value(std::size_t column, double time) const;
     /// Mean of a column over [from, to].
     double mean(std::size_t column, double from, double to) const;
+    /// Least and greatest value of a column.
+    std::array<double, 2> range(std::size_t column) const;
+    /// Largest mean rate of change of a column between two rows, per s.
+    double fastest(std::size_t column) const;
     double first_time() const { return columns_[0].front(); }
     double last_time() const { return columns_[0].back(); }
 

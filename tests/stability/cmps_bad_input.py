@@ -45,9 +45,16 @@ backwards = os.path.join(FOLDER, "backwards.csv")
 with open(backwards, "w") as file:
     file.write("t,x\n0.0,0.0\n1.0,0.1\n0.5,0.2\n")
 
+nan_inside, piston_through, piston_away = (os.path.join(FOLDER, name) for name in ("nan.csv", "through.csv", "away.csv"))
+shaken = os.path.join(FOLDER, "shaken.csv")
+for path, lines in ((shaken, "0.0,0.0,-9.81\n1.0,0.5,-9.81\n"), (nan_inside, "t,x\n0.0,0.0\nnan,0.1\n1.0,0.2\n"), (piston_through, "0.0,0.0\n2.0,4.5\n"), (piston_away, "0.0,0.5\n2.0,0.5\n")):
+    with open(path, "w") as file:
+        file.write(lines)
+
 wall = "offshore = 25.0\nonshore = 31.0\nparticle_spacing = 0.05\n"
 dry = 'drive = "none"\ntank = [0, 1, 0, 1]\nparticle_spacing = 0.05\n'
 no_flow = {"cmps__flow": None}
+pool = dry + "water = [[[0, 0], [1, 0], [1, 0.4], [0, 0.4]]]\n"
 # name, waves, changes, what the line must say
 cases = [
     # polygons
@@ -64,6 +71,14 @@ cases = [
     ("velocity_of_nothing", waves, {"cmps": wall + "water_velocity = [[1, 0]]"}, "cmps.water_velocity: 1 velocities for 0 polygons of cmps.water"),
     ("spilled", None, {"cmps": dry + "water = [[[0, 0], [1.5, 0], [1.5, 0.5], [0, 0.5]]]", **no_flow}, "cmps.water: polygon 1 (x = 0 to 1.5, z = 0 to 0.5 m) leaves the tank"),
     ("tank_upside_down", None, {"cmps": 'drive = "none"\ntank = [0, 1, 1, 0]', **no_flow}, "x0 < x1 and z0 < z1"),
+    ("twice_the_water", None, {"cmps": dry + "water = [[[0, 0], [0.4, 0], [0, 0.4]], [[0, 0], [0.4, 0], [0, 0.4]]]", **no_flow}, "cmps.water: polygons 1 and 2 overlap"),
+    ("no_area", None, {"cmps": pool + "structure = [[[0.3, 0.1], [0.7, 0.1], [0.5, 0.1]]]", **no_flow}, "cmps.structure: polygon 1 folds back on itself at its point 2, (0.7, 0.1)"),
+    ("folded", None, {"cmps": pool + "structure = [[[0.3, 0.1], [0.7, 0.1], [0.7, 0.3], [0.7, 0.1], [0.5, 0.05]]]", **no_flow}, "folds back on itself at its point 3, (0.7, 0.3)"),
+    ("above_tank", None, {"cmps": pool + "structure = [[[0.3, 2], [0.7, 2], [0.7, 3], [0.3, 3]]]", **no_flow}, "polygon 1 (z = 2 to 3 m) lies outside the tank, z = 0 to 1 m"),
+    ("thin_plate", None, {"cmps": pool + "structure = [[[0.5, 0], [0.6, 0], [0.6, 0.8], [0.5, 0.8]]]", **no_flow}, "0.1 m thick, thinner than 3 particles of 0.05 m: the pressures of its two sides would mix; a particle_spacing of 0.033 m would do"),
+    ("thin_hung_plate", waves, {"cmps": wall + "structure = [[[29.0, -0.2], [30.0, -0.2], [30.0, -0.15], [29.0, -0.15]]]"}, "0.05 m thick"),
+    ("narrow_slot", None, {"cmps": pool + "structure = [[[0, 0.2], [0.47, 0.2], [0.47, 0.8], [0, 0.8]], [[0.53, 0.2], [1, 0.2], [1, 0.8], [0.53, 0.8]]]", **no_flow}, "a gap is 0.06 m wide, narrower than 1.5 particles of 0.05 m: close it; a particle_spacing of 0.04 m would do"),
+    ("narrow_gate", None, {"cmps": pool + "structure = [[[0.4, 0.02], [0.6, 0.02], [0.6, 0.8], [0.4, 0.8]]]", **no_flow}, "a gap is 0.02 m wide"),
     # resolution and sizes
     ("coarse", waves, {"cmps": "offshore = 25.0\nonshore = 31.0\nparticle_spacing = 0.5"}, "too coarse"),
     ("too_fine", waves, {"cmps": "offshore = 25.0\nonshore = 31.0\nparticle_spacing = 1e-5"}, "makes about 2.4e+10 particles"),
@@ -78,6 +93,10 @@ cases = [
     ("grid", waves, {"cmps__flow": "x = [20.0, 30.0]\nz = [-0.4, 0.1]"}, "leaves the near field"),
     ("grid_backwards", waves, {"cmps__flow": "x = [30.0, 29.0]\nz = [-0.4, 0.1]"}, "x0 < x1"),
     ("zone_too_long", waves, {"cmps": wall + "relaxation_length = 7.0"}, "longer than the near field"),
+    ("wall_in_tank", None, {"cmps": pool + "offshore = 0.3", **no_flow}, "cmps.offshore: the tank's wall stands at x = 0 m"),
+    ("end_in_tank", None, {"cmps": pool + "onshore = 0.7", **no_flow}, "cmps.onshore: the tank's wall stands at x = 1 m"),
+    ("waves_in_tank", waves, {"cmps": 'drive = "waves"\ntank = [24, 30, -0.4, 1]\nparticle_spacing = 0.05', **no_flow}, "cmps.drive: waves come into a flume, not into a tank"),
+    ("gauge_in_structure", None, {"cmps": pool + "structure = [[[0.3, 0], [0.7, 0], [0.7, 0.3], [0.3, 0.3]]]", "gauges": 'g = {x = 0.5, z = 0.15, kind = "pressure"}', **no_flow}, "gauges.g: (0.5, 0.15) m lies inside"),
     # words and numbers
     ("unknown", waves, {"cmps": wall + "particel_spacing = 0.05"}, "particel_spacing"),
     ("word", waves, {"cmps": wall + 'gradient = "best"'}, "corrected"),
@@ -90,6 +109,12 @@ cases = [
     ("no_piston", None, {"cmps": wall + 'drive = "piston"'}, "piston_file"),
     ("absent_piston", None, {"cmps": wall + 'drive = "piston"\npiston_file = "nothing.csv"'}, "nothing.csv"),
     ("backward_piston", None, {"cmps": wall + f'drive = "piston"\npiston_file = "{backwards}"'}, "backwards.csv"),
+    ("nan_piston", None, {"cmps": wall + f'drive = "piston"\npiston_file = "{nan_inside}"'}, "nan.csv:3: expected 2 numbers"),
+    ("idle_piston", None, {"cmps": pool + f'piston_file = "{backwards}"', **no_flow}, "backwards.csv"),
+    ("piston_for_nothing", None, {"cmps": pool + f'piston_file = "{piston_away}"', **no_flow}, "cmps.piston_file: nothing moves by it"),
+    ("piston_into_structure", None, {"cmps": wall + f'drive = "piston"\npiston_file = "{piston_through}"\nstructure = [[[29.0, -0.4], [30.0, -0.4], [30.0, 0.2]]]'}, "cmps.piston_file: the moving wall at x = 29.5 m stands in the structure"),
+    ("water_behind_piston", None, {"cmps": wall + f'drive = "piston"\npiston_file = "{piston_away}"\nwater = [[[25, -0.4], [31, -0.4], [31, 0], [25, 0]]]'}, "stands behind the piston, which starts at x = 25.5 m"),
+    ("two_gravities", None, {"cmps": pool + f'gravity = [0, -9.81]\ngravity_file = "{shaken}"', **no_flow}, "cmps.gravity: cmps.gravity_file says it too"),
     # waves
     ("elsewhere", elsewhere, {}, "cover x"),
     ("short", short, {}, "end at t = 2"),

@@ -21,7 +21,9 @@ inline cmps::Particles particles(double length, double spacing, const std::funct
     solid.find_surface({0, 0}, {length, height});
     cmps::Particles particles =
         cmps::make_boundary(cmps::place_boundary(solid, spacing, -1, length + 1, height));
-    cmps::fill_water(solid, spacing, 0, length, 0, surface, particles);
+    cmps::fill_water(
+        solid, spacing, 0, length, [&](double x) { return solid.free_intervals(x, 0, surface(x)); },
+        particles);
     return particles;
 }
 

@@ -88,7 +88,8 @@ particles_interval = 0.5
     level = np.mean([run.gauge(f"basin{i}")[1] for i in (1, 2, 3, 4, 5)], axis=0)
     position = run.fluid()[1][-1]
     counted = np.sum(position[:, 0] > 1.06) * spacing**2
-    expect(abs(volume[-1] - counted) < 1e-6, f"weir: the gauge says {volume[-1]:.5f} m2, {counted:.5f} m2 of particles lie behind the wall (same)")
+    # a sample lies between two steps: a particle that passes within the last one counts in part
+    expect(abs(volume[-1] - counted) < spacing**2, f"weir: the gauge says {volume[-1]:.5f} m2, {counted:.5f} m2 of particles lie behind the wall (bound one particle)")
     missing = (level[0] - level[-1]) * length
     expect(abs(missing - volume[-1]) < 0.06 * volume[-1] + spacing * length * 0.2, f"weir: {missing:.4f} m2 missing in the basin by its level, {volume[-1]:.4f} m2 counted (bound 6 % and a fifth of a spacing)")
     rate = 2 / 3 * 0.62 * np.sqrt(2 * G)

@@ -56,6 +56,27 @@ TEST(Solid, CrossingPolygonsAreFound) {
     EXPECT_FALSE(cmps::crosses_itself({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, where));
 }
 
+TEST(Solid, OverlapIsMoreThanASharedBorder) {
+    const cmps::Polygon triangle = {{0, 0}, {0.4, 0}, {0, 0.4}}, square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
+                        beside = {{1, 0}, {2, 0}, {2, 1}, {1, 1}}, above = {{0.4, 0}, {0.4, 0.4}, {0, 0.4}},
+                        within = {{0.5, 0.5}, {0.6, 0.5}, {0.6, 0.9}},
+                        cross = {{-1, 0.4}, {2, 0.4}, {2, 0.6}, {-1, 0.6}};
+    EXPECT_TRUE(cmps::overlap(triangle, triangle));
+    EXPECT_TRUE(cmps::overlap(triangle, square));
+    EXPECT_TRUE(cmps::overlap(square, within));
+    EXPECT_TRUE(cmps::overlap(square, cross));
+    EXPECT_FALSE(cmps::overlap(square, beside));
+    EXPECT_FALSE(cmps::overlap(triangle, above));
+}
+
+TEST(Solid, FoldsAreFound) {
+    std::size_t where = 0;
+    EXPECT_TRUE(cmps::folds_back({{0.3, 0.1}, {0.7, 0.1}, {0.7, 0.3}, {0.7, 0.1}, {0.5, 0.05}}, where));
+    EXPECT_EQ(where, 3u);
+    EXPECT_TRUE(cmps::folds_back({{0.3, 0.1}, {0.7, 0.1}, {0.5, 0.1}}, where));
+    EXPECT_FALSE(cmps::folds_back({{0, 0}, {0.5, 0}, {1, 0}, {1, 1}}, where));
+}
+
 /// At every point just inside the water of a wedge of any angle, the boundary fills the kernel as a lattice
 /// would.
 class Corner : public testing::TestWithParam<double> {};
@@ -121,7 +142,7 @@ TEST(InitialState, AreaOfTheWaterIsKeptToOneParticle) {
     solid.find_surface({-0.5, -0.9}, {1.5, 1.0});
     cmps::Particles particles;
     cmps::fill_water(
-        solid, l0, 0.0, 1.0, -0.5, [](double) { return 0.1; }, particles);
+        solid, l0, 0.0, 1.0, [&](double x) { return solid.free_intervals(x, -0.5, 0.1); }, particles);
     const double area = 0.4 * 0.4 + 0.6 * (0.4 + 0.1) / 2;
     EXPECT_NEAR(static_cast<double>(particles.fluid) * l0 * l0, area,
                 1.5 * l0 * l0 + 0.5 * l0 * l0);  // one particle, and the slope seen at column centres
