@@ -49,7 +49,7 @@ interval = 0.02
 
 
 def wave():
-    height, period, x0 = 0.04, 1.65, 26.5
+    height, period, x0 = 0.06, 1.65, 26.5  # lower waves stand less clear of the particles' own noise
     waves = os.path.join(FOLDER, "gentle")
     end = 11.6
     write_waves(waves, height, period, DEPTH, 24, 37, end, window=end, arrival=0.5)
