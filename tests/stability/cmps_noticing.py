@@ -44,7 +44,7 @@ for viscosity in (0.1, 0.3):
 
 # said before anything runs
 for name, scene, text in (
-        ("no water", tank(1, [0, 1, 0, 1], rectangle(0.5, 0.5001, 0.1, 0.4), 0.02), "there is no water"),
+        ("no water", tank(1, [0, 1, 0, 1], rectangle(0.5, 0.5001, 0.1, 0.4), 0.02), "no water at all"),
         ("gauge beside the tank", tank(1, [0, 1, 0, 1], rectangle(0, 1, 0, 0.4), 0.02, head="[gauges]\naside = 5.0"), "gauges.aside"),
         ("gauge above the tank", tank(1, [0, 1, 0, 1], rectangle(0, 1, 0, 0.4), 0.02, head='[gauges]\nhigh = {x = 0.5, z = 7.0, kind = "pressure"}'), "gauges.high")):
     run = Run(name.replace(" ", "_"), scene)
