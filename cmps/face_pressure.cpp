@@ -78,19 +78,27 @@ std::array<double, 2> FacePressure::force_on(const std::vector<double>& at_walls
     return force;
 }
 
-std::optional<double> FacePressure::mean_around(const std::vector<double>& at_walls, double x, double z,
-                                                double diameter) const {
+FacePressure::Sensor FacePressure::sensor_at(double x, double z, double diameter) const {
     const double reach = std::max(0.5 * diameter, spacing_);
-    double sum = 0, weights = 0;
-    for (const Piece& piece : pieces_) {
+    Sensor sensor;
+    double sum = 0;
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+        const Piece& piece = pieces_[k];
         const double ex = piece.at[0] - x, ez = piece.at[1] - z;
         // on the gauge's own face: not one that stands across or behind
         if (std::abs(ex * piece.normal[0] + ez * piece.normal[1]) > 0.1 * spacing_) continue;
         const double weight = 1.0 - std::hypot(ex, ez) / reach;
-        if (weight > 0) sum += weight * pressure(at_walls, piece), weights += weight;
+        if (weight > 0) sensor.pieces.push_back(k), sensor.weights.push_back(weight), sum += weight;
     }
-    if (weights == 0) return {};
-    return sum / weights;
+    for (double& weight : sensor.weights) weight /= sum;
+    return sensor;
+}
+
+double FacePressure::read(const std::vector<double>& at_walls, const Sensor& sensor) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < sensor.pieces.size(); ++k)
+        sum += sensor.weights[k] * pressure(at_walls, pieces_[sensor.pieces[k]]);
+    return sum;
 }
 
 }  // namespace cmps

@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "cmps/particles.hpp"
@@ -23,10 +22,15 @@ class FacePressure {
 
     /// Force on a body, N per m of width. `at_walls`: NearField::face_pressure.
     std::array<double, 2> force_on(const std::vector<double>& at_walls, std::int32_t body) const;
-    /// Mean over the faces within `diameter`/2 (at least a spacing) of (x, z), Pa; nothing where there is no
-    /// face.
-    std::optional<double> mean_around(const std::vector<double>& at_walls, double x, double z,
-                                      double diameter) const;
+    /// Pieces of face and their weights, that add up to 1; empty where there is no face.
+    struct Sensor {
+        std::vector<std::size_t> pieces;
+        std::vector<double> weights;
+    };
+    /// The faces within `diameter`/2 (at least a spacing) of (x, z).
+    Sensor sensor_at(double x, double z, double diameter) const;
+    /// Mean over the sensor, Pa.
+    double read(const std::vector<double>& at_walls, const Sensor& sensor) const;
 
  private:
     /// A wall particle behind a piece of face, and the water's weight between their places on it, Pa.

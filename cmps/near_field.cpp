@@ -199,91 +199,54 @@ void NearField::apply_gradient(double step) {
     largest_acceleration_ = std::sqrt(strongest);
 }
 
-/// The water's own pressure carried on to the face with the gradient that has just moved it: the force that
-/// stops the water and the pressure that is reported are then the same. The wall particles' unknowns are not:
-/// while little water stands before them, they are larger than what the water feels.
+/// The water's own pressure carried on to the face with the gradient that has just moved it, and what the
+/// wall has given in contact: the force that stops the water and the pressure that is reported are then the
+/// same. The wall particles' unknowns are not: while little water stands before them, they are larger than
+/// what the water feels. For the same reason a particle at the surface has the pressure that its own gradient
+/// makes over the half spacing from the surface, where that is less.
 void NearField::find_face_pressure() {
-    face_pressure.assign(particles.walls, 0.0);
+    face_pressure = contacts_.wall_pressure();
     const NeighbourLists& lists = search.lists();
     const std::size_t first_fluid = particles.first_fluid();
+    const double half = 0.5 * settings.spacing;
+    const auto own_pressure = [&](std::size_t f) {
+        const double pressure = particles.pressure[first_fluid + f];
+        const std::size_t row = particles.walls + f;
+        if (place[row] < Place::surface) return pressure;
+        const double fx = interactions.asymmetry_x[row], fz = interactions.asymmetry_z[row];  // inwards
+        const double size = std::hypot(fx, fz);
+        const double inwards = size > 0 ? (gradient_x_[f] * fx + gradient_z_[f] * fz) / size : 0.0;
+        return std::min(pressure, half * std::max(0.0, inwards));
+    };
     for (std::size_t row = 0; row < particles.walls; ++row) {
         if (place[row] == Place::dry) continue;
         const std::size_t j = particles.first_wall() + row;
-        const double face_x = 0.5 * settings.spacing * particles.normal_x[j],
-                     face_z = 0.5 * settings.spacing * particles.normal_z[j];
+        const double face_x = half * particles.normal_x[j], face_z = half * particles.normal_z[j];
         double sum = 0, weights = 0;
         for (std::size_t k = lists.start[row + 1]; k-- > lists.start[row];) {  // the fluid stands last
             const auto i = static_cast<std::size_t>(lists.neighbour[k]);
             if (i < first_fluid) break;
             const std::size_t f = i - first_fluid;
             const auto weight = static_cast<double>(interactions.weight[k]);
-            sum += weight * (particles.pressure[i] +
-                             gradient_x_[f] * (face_x - static_cast<double>(interactions.dx[k])) +
-                             gradient_z_[f] * (face_z - static_cast<double>(interactions.dz[k])));
+            sum += weight *
+                   (own_pressure(f) + gradient_x_[f] * (face_x - static_cast<double>(interactions.dx[k])) +
+                    gradient_z_[f] * (face_z - static_cast<double>(interactions.dz[k])));
             weights += weight;
         }
-        if (weights > 0) face_pressure[row] = std::max(0.0, sum / weights);
+        if (weights > 0) face_pressure[row] += std::max(0.0, sum / weights);
     }
 }
 
-/// Dynamic stabilisation, collisions and wall contact, for pairs that the pressure has left too near each
-/// other.
-///
-/// DS: below 0.9 l0 half the missing distance is made up over the reference step (all of it at walls); the
-/// push is capped at 0.1 l0, so that a small adaptive step does not feed it. Collisions: below 0.5 l0
-/// approaching pairs meet with restitution 0.2. Contact: no particle crosses the face that its nearest wall
-/// particle stands behind.
+/// Contacts: for pairs that the pressure has left too near each other, and for water that comes at a wall.
 void NearField::push_apart(double step) {
-    const std::size_t first = particles.first_fluid(), walls = particles.walls;
-    const double l0 = settings.spacing, reach = settings.stabilisation * l0, touching = 0.5 * l0;
-    const double g = std::hypot(settings.gravity_x, settings.gravity_z);
-    const double reference_step = 0.4 * l0 / std::sqrt(g * std::max(settings.depth, l0));
-    const double push_step = std::max(step, reference_step);
-    // contact ends at 0.6 l0 from the wall particle across the face and 0.55 l0 along it
-    const double near = std::max(reach, 0.82 * l0), near2 = near * near;
+    const double l0 = settings.spacing, reach = Contacts::reach(settings);
     const float near_weight = std::visit(
-        [&](const auto& kernel) { return kernel.weight(static_cast<float>(1.001 * near2)); }, kernel_);
-    constexpr double restitution = 0.2;
-    change_u_.assign(particles.fluid, 0.0);
-    change_w_.assign(particles.fluid, 0.0);
-    const NeighbourLists& lists = search.lists();
-    common::parallel_for(particles.fluid, serial_below / 2, [&](std::size_t f) {
-        const std::size_t row = walls + f, i = first + f;
-        if (interactions.largest_weight[row] < near_weight) return;  // most: nobody is near
-        const double ui = particles.u[i], wi = particles.w[i];
-        double du = 0, dw = 0;
-        for (std::size_t k = lists.start[row]; k < lists.start[row + 1]; ++k) {
-            const double dx = interactions.dx[k], dz = interactions.dz[k], r2 = dx * dx + dz * dz;
-            if (r2 >= near2) continue;
-            const std::size_t j = static_cast<std::size_t>(lists.neighbour[k]);
-            const double r = std::sqrt(r2), share = j >= first ? 0.5 : 1.0;
-            if (r < reach) {
-                const double push = share * std::min(reach - r, 0.1 * l0) * step / (push_step * push_step);
-                du -= push * dx / r, dw -= push * dz / r;
-            }
-            if (r < touching) {
-                const double approach = ((particles.u[j] - ui) * dx + (particles.w[j] - wi) * dz) / r;
-                if (approach < 0) {
-                    const double kick = share * (1 + restitution) * approach;
-                    du += kick * dx / r, dw += kick * dz / r;
-                }
-            }
-            if (j < first && j >= particles.first_wall()) {
-                const double nx = particles.normal_x[j], nz = particles.normal_z[j];
-                const double gap = -(dx * nx + dz * nz) - 0.5 * l0;  // from the face
-                const double sideways = std::abs(-dx * nz + dz * nx);
-                // farther behind it is water of another face
-                if (gap < 0.1 * l0 && gap > -0.5 * l0 && sideways < 0.55 * l0) {
-                    const double speed = (ui + du - particles.u[j]) * nx + (wi + dw - particles.w[j]) * nz;
-                    const double wanted = (0.1 * l0 - gap) / push_step;  // back out within a reference step
-                    if (speed < wanted) du += (wanted - speed) * nx, dw += (wanted - speed) * nz;
-                }
-            }
-        }
-        change_u_[f] = du, change_w_[f] = dw;
-    });
-    for (std::size_t f = 0; f < particles.fluid; ++f)
-        particles.u[first + f] += change_u_[f], particles.w[first + f] += change_w_[f];
+        [&](const auto& kernel) { return kernel.weight(static_cast<float>(1.001 * reach * reach)); },
+        kernel_);
+    const double celerity =
+        std::sqrt(std::hypot(settings.gravity_x, settings.gravity_z) * std::max(settings.depth, l0));
+    contacts_.apply(settings, particles, search.lists(), interactions, near_weight, step, 0.4 * l0 / celerity,
+                    std::max(celerity, largest_speed_));
 }
 
 /// Of what shifting and the density term do in one step of the length that speed and celerity ask for.

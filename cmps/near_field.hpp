@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "cmps/contacts.hpp"
 #include "cmps/free_surface.hpp"
 #include "cmps/gradient.hpp"
 #include "cmps/interactions.hpp"
@@ -76,7 +77,8 @@ class NearField {
     Interactions interactions;  ///< at the positions of the last pressure solve
     std::vector<Place> place;   ///< per carrier row
     PressureEquation equation;
-    std::vector<double> face_pressure;  ///< Pa, on the face before each wall particle, as the water says
+    std::vector<double>
+        face_pressure;  ///< Pa, on the face before each wall particle: the water's, and contact
     std::optional<PathAverage> path_average;  ///< where a flow grid is recorded
     PhaseSeconds seconds;
     StepCounts counts;
@@ -98,8 +100,8 @@ class NearField {
     PressureSolver solver_;
     GradientTerm gradient_;
     VelocityFilter filter_;
-    std::vector<double> gradient_x_, gradient_z_, unknown_pressure_, unknown_x_, unknown_z_, old_u_, old_w_,
-        change_u_, change_w_;
+    Contacts contacts_;
+    std::vector<double> gradient_x_, gradient_z_, unknown_pressure_, unknown_x_, unknown_z_, old_u_, old_w_;
     std::vector<std::vector<double>*> companions_;  // arrays that go along when particles are put in order
     double largest_speed_ = 0, largest_acceleration_ = 0, last_step_ = 0;
     double first_speed_ = 0;                                              // of the water at the start, m/s

@@ -449,6 +449,14 @@ void read_drive(const Section& section, Scene& scene, double depth) {
 void read_output(const common::SceneFile& file, const Section& section, Scene& scene) {
     scene.particles_interval =
         section.number("particles_interval", "s", "between stored particle pictures", Range::positive(), 0.1);
+    // A particle takes as long to arrive as water takes to cross it. At the celerity that is 2.5 of the
+    // longest steps; what is shorter tells of particles, not of water.
+    const Settings& settings = scene.settings;
+    const double celerity = std::sqrt(std::hypot(settings.gravity_x, settings.gravity_z) *
+                                      std::max(settings.depth, settings.spacing));
+    scene.pressure_average = section.number(
+        "pressure_average", "s", "time over which pressures and forces on faces are averaged, 0: one step",
+        Range::not_negative(), celerity > 0 ? settings.spacing / celerity : 0.0);
     if (!section.has("flow")) return;
     const Section flow = file.section("cmps.flow");
     scene.has_flow = true;

@@ -60,6 +60,7 @@ struct Scene {
     FlowGridSettings flow;
     bool has_flow = false;
     double particles_interval = 0, flow_smoothing = 0;  ///< s
+    double pressure_average = 0;                        ///< s: over which pressures and forces are averaged
 
     /// Face of the moving wall when the near field starts, m.
     double wall_at_start() const { return offshore + piston.start; }

@@ -86,6 +86,7 @@ common::Window Simulation::advance_window(const common::WindowClock& clock, std:
         output_->before_step(time_, next, *field_, overtopped());
         if (field_->counts.steps % steps_between_stocks == 0) take_stock();
         field_->advance(time_, next - time_);
+        output_->add_step(next - time_, *field_);
         time_ = next;
         output_->after_step(time_, *field_, overtopped());
         on_step(time_);
@@ -102,6 +103,8 @@ common::DataFile Simulation::save_state() const {
     common::DataFile state;
     save(*field_, state);
     state.datasets["/run"] = common::real64("s", {2}, {start_, time_});
+    if (const auto means = output_->state(); !means.empty())
+        state.datasets["/pressures"] = common::real64("-", {means.size()}, means);
     const auto balance = balance_->state();
     state.datasets["/balance"] = common::real64("-", {balance.size()}, balance);
     return state;
@@ -111,6 +114,7 @@ void Simulation::restore(const common::DataFile& state) {
     cmps::restore(*field_, state);
     time_ = state.at("/run").doubles().at(1);
     steps_before_ = field_->counts.steps;
+    if (state.has("/pressures")) output_->restore(state.at("/pressures").doubles());
     balance_->restore(state.at("/balance").doubles());
 }
 

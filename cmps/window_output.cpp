@@ -21,6 +21,18 @@ std::size_t water_beyond(const Particles& particles, double x) {
     return count;
 }
 
+/// Gauges of the scene within the near field.
+std::vector<common::Gauge> gauges_in(const Scene& scene) {
+    std::vector<common::Gauge> gauges;
+    for (const common::Gauge& gauge : scene.gauges)
+        if (gauge.x >= scene.offshore && gauge.x <= scene.onshore) gauges.push_back(gauge);
+    return gauges;
+}
+
+bool reads_pressure(const common::Gauge& gauge) {
+    return gauge.kind == common::Gauge::Kind::pressure;
+}
+
 common::Dataset times(const Series& series) {
     return common::real64("s", {series.next}, series.times());
 }
@@ -28,18 +40,20 @@ common::Dataset times(const Series& series) {
 }  // namespace
 
 WindowOutput::WindowOutput(const Scene& scene, const Solid& solid, const Particles& particles)
-    : scene_(scene), solid_(solid), initial_fluid_(particles.fluid) {
+    : scene_(scene),
+      solid_(solid),
+      initial_fluid_(particles.fluid),
+      gauges_(gauges_in(scene)),
+      sensors_(gauges_.size()),
+      pressures_(scene.pressure_average, gauges_.size() + 2 * scene.structure.size()) {
     if (scene_.has_flow) flow_.emplace(scene_.flow, solid_, scene_.settings.spacing);
-    for (const common::Gauge& gauge : scene_.gauges)
-        if (gauge.x >= scene_.offshore && gauge.x <= scene_.onshore) {
-            gauges_.push_back(gauge);
-            beyond_at_start_.push_back(water_beyond(particles, gauge.x));
-        }
+    for (const common::Gauge& gauge : gauges_) beyond_at_start_.push_back(water_beyond(particles, gauge.x));
     gauge_series_.resize(gauges_.size());
-    const bool reads_pressure = std::any_of(gauges_.begin(), gauges_.end(), [](const common::Gauge& gauge) {
-        return gauge.kind == common::Gauge::Kind::pressure;
-    });
-    if (reads_pressure || !scene_.structure.empty()) faces_.emplace(particles, solid_, scene_.settings);
+    if (scene_.structure.empty() && std::none_of(gauges_.begin(), gauges_.end(), reads_pressure)) return;
+    faces_.emplace(particles, solid_, scene_.settings);
+    for (std::size_t g = 0; g < gauges_.size(); ++g)
+        if (reads_pressure(gauges_[g]))
+            sensors_[g] = faces_->sensor_at(gauges_[g].x, gauges_[g].z, gauges_[g].diameter);
 }
 
 /// Calls visit(series, interval) for everything that is recorded.
@@ -66,6 +80,7 @@ bool WindowOutput::is_complete() const {
 }
 
 void WindowOutput::before_step(double time, double next, const NearField& field, std::size_t overtopped) {
+    if (pressures_.is_empty()) add_step(0.0, field);  // at the start: of the water at rest
     for_each_series([&](Series& series, double) {
         if (!series.is_passed_by(next)) return;
         if (series.after.is_made && series.after.time == time)
@@ -73,6 +88,23 @@ void WindowOutput::before_step(double time, double next, const NearField& field,
         else
             read(series, field, overtopped, time, series.before);
     });
+}
+
+void WindowOutput::add_step(double step, const NearField& field) {
+    if (!faces_) return;
+    const std::span<double> values = pressures_.add_step(step);
+    for (std::size_t g = 0; g < gauges_.size(); ++g) {
+        const common::Gauge& gauge = gauges_[g];
+        if (!reads_pressure(gauge)) continue;
+        values[g] = sensors_[g].pieces.empty() ? pressure_in_water(field.particles, scene_.settings.spacing,
+                                                                   gauge.x, gauge.z, gauge.diameter)
+                                               : faces_->read(field.face_pressure, sensors_[g]);
+    }
+    for (std::size_t k = 0; k < scene_.structure.size(); ++k) {
+        const auto force = faces_->force_on(field.face_pressure, static_cast<std::int32_t>(k));
+        std::copy(force.begin(), force.end(),
+                  values.begin() + static_cast<std::ptrdiff_t>(gauges_.size() + 2 * k));
+    }
 }
 
 void WindowOutput::after_step(double time, const NearField& field, std::size_t overtopped) {
@@ -113,7 +145,7 @@ void WindowOutput::read(const Series& series, const NearField& field, std::size_
     if (&series == &flow_series_) return read_flow(field, reading);
     if (&series == &particle_series_) return read_particles(field.particles, reading);
     for (auto& values : reading.fields) values.clear();
-    if (&series == &force_series_) return read_forces(field, reading);
+    if (&series == &force_series_) return read_forces(reading);
     read_gauge(static_cast<std::size_t>(&series - gauge_series_.data()), field, overtopped, reading);
 }
 
@@ -163,10 +195,9 @@ void WindowOutput::sample_particles(double share) {
     }
 }
 
-void WindowOutput::read_forces(const NearField& field, Reading& reading) const {
-    for (std::size_t k = 0; k < scene_.structure.size(); ++k)
-        for (const double component : faces_->force_on(field.face_pressure, static_cast<std::int32_t>(k)))
-            reading.fields[0].push_back(component);
+void WindowOutput::read_forces(Reading& reading) const {
+    for (std::size_t k = 0; k < 2 * scene_.structure.size(); ++k)
+        reading.fields[0].push_back(pressures_.mean(gauges_.size() + k));
 }
 
 void WindowOutput::read_gauge(std::size_t index, const NearField& field, std::size_t overtopped,
@@ -180,9 +211,7 @@ void WindowOutput::read_gauge(std::size_t index, const NearField& field, std::si
             values.push_back(surface_elevation(particles, solid_, l0, gauge.x));
             break;
         case common::Gauge::Kind::pressure:
-            values.push_back(
-                faces_->mean_around(field.face_pressure, gauge.x, gauge.z, gauge.diameter)
-                    .value_or(pressure_in_water(particles, l0, gauge.x, gauge.z, gauge.diameter)));
+            values.push_back(pressures_.mean(index));
             break;
         case common::Gauge::Kind::velocity:
             for (const double component : velocity_at(particles, l0, gauge.x, gauge.z))
@@ -230,6 +259,7 @@ common::Window WindowOutput::take() {
                 break;
             case common::Gauge::Kind::pressure:
                 data[group + "/pressure"] = common::real32("Pa", {n}, std::move(series.values[0]));
+                data[group + "/averaged_over"] = common::real64("s", {1}, {scene_.pressure_average});
                 break;
             case common::Gauge::Kind::velocity:
                 data[group + "/velocity"] = common::real32("m/s", {n, 2}, std::move(series.values[0]));
@@ -244,6 +274,7 @@ common::Window WindowOutput::take() {
         data["/structure/time"] = times(force_series_);
         data["/structure/force"] =
             common::real32("N/m", {n, scene_.structure.size(), 2}, std::move(force_series_.values[0]));
+        data["/structure/averaged_over"] = common::real64("s", {1}, {scene_.pressure_average});
     }
     return std::move(window_);
 }

@@ -8,6 +8,7 @@
 #include "cmps/face_pressure.hpp"
 #include "cmps/flow_grid.hpp"
 #include "cmps/near_field.hpp"
+#include "cmps/running_mean.hpp"
 #include "cmps/scene.hpp"
 #include "cmps/series.hpp"
 #include "cmps/solid.hpp"
@@ -32,15 +33,21 @@ class WindowOutput {
     /// Before a step from `time` to `next`: reads what has samples due within it. `overtopped`: particles
     /// that were taken out behind the structure.
     void before_step(double time, double next, const NearField& field, std::size_t overtopped);
+    /// After a step of `step` s: takes its pressures into their running means.
+    void add_step(double step, const NearField& field);
     /// After a step to `time`: reads again, and takes the samples that the step has passed.
     void after_step(double time, const NearField& field, std::size_t overtopped);
     /// The window's datasets.
     common::Window take();
 
+    /// Running means, to go on bit for bit.
+    std::vector<double> state() const { return pressures_.state(); }
+    void restore(const std::vector<double>& state) { pressures_.restore(state); }
+
  private:
     void read_flow(const NearField& field, Reading& reading);
     void read_particles(const Particles& particles, Reading& reading) const;
-    void read_forces(const NearField& field, Reading& reading) const;
+    void read_forces(Reading& reading) const;
     void read_gauge(std::size_t index, const NearField& field, std::size_t overtopped,
                     Reading& reading) const;
     void sample_particles(double share);
@@ -59,7 +66,9 @@ class WindowOutput {
     WaterMotion motion_;
     std::optional<FacePressure> faces_;
     std::vector<common::Gauge> gauges_;
-    std::vector<std::size_t> beyond_at_start_;  // per gauge, particles that stood behind it at the start
+    std::vector<FacePressure::Sensor> sensors_;  // per gauge; empty unless it reads the pressure on a face
+    RunningMean pressures_;                      // one channel a gauge, then two a structure: its force
+    std::vector<std::size_t> beyond_at_start_;   // per gauge, particles that stood behind it at the start
     Series flow_series_, particle_series_, force_series_;
     std::vector<Series> gauge_series_;
 };
