@@ -51,9 +51,8 @@ struct PhaseSeconds {
 
 /// What the steps so far have met.
 struct StepCounts {
-    std::size_t steps = 0, iterations = 0, list_builds = 0, unconverged = 0, wall_contacts = 0,
-                collisions = 0,
-                closed = 0;  ///< steps without a free surface
+    std::size_t steps = 0, iterations = 0, list_builds = 0, unconverged = 0;
+    std::size_t closed = 0;  ///< steps without a free surface
 };
 
 class NearField {

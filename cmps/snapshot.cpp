@@ -40,9 +40,8 @@ void save(const NearField& field, common::DataFile& state) {
     const auto step = field.step_state();
     data["/step"] = common::real64("-", {step.size()}, step);
     const StepCounts& counts = field.counts;
-    data["/counts"] =
-        common::unsigned64({7}, {counts.steps, counts.iterations, counts.list_builds, counts.unconverged,
-                                 counts.wall_contacts, counts.collisions, counts.closed});
+    data["/counts"] = common::unsigned64(
+        {5}, {counts.steps, counts.iterations, counts.list_builds, counts.unconverged, counts.closed});
     for (std::size_t e = 0; e < field.effects.size(); ++e) {
         const auto values = field.effects[e]->state();
         if (!values.empty())
@@ -69,9 +68,7 @@ void restore(NearField& field, const common::DataFile& state) {
                     .iterations = counts[1],
                     .list_builds = counts[2],
                     .unconverged = counts[3],
-                    .wall_contacts = counts[4],
-                    .collisions = counts[5],
-                    .closed = counts[6]};
+                    .closed = counts[4]};
     for (std::size_t e = 0; e < field.effects.size(); ++e) {
         const std::string name = fmt::format("/effects/{}", e);
         if (state.has(name)) field.effects[e]->restore(state.at(name).doubles());
