@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cmps/narrow_places.hpp"
+#include "cmps/scene_checks.hpp"
 #include "cmps/scene_geometry.hpp"
 #include "cmps/time_table.hpp"
 #include "common/errors.hpp"
@@ -77,55 +77,6 @@ Level level_of(common::Accuracy accuracy) {
     return {.over_depth = 24, .tolerance = 1e-3, .kernel_radius = 2.6};
 }
 
-/// Smallest box around a polygon: x0, x1, z0, z1.
-std::array<double, 4> extent(const Polygon& polygon) {
-    std::array<double, 4> box = {1e300, -1e300, 1e300, -1e300};
-    for (const Point& p : polygon) {
-        box[0] = std::min(box[0], p[0]), box[1] = std::max(box[1], p[0]);
-        box[2] = std::min(box[2], p[1]), box[3] = std::max(box[3], p[1]);
-    }
-    return box;
-}
-
-/// A structure that no water can touch and water outside the walls are mistakes of the scene.
-void check_places(const Section& section, const Scene& scene) {
-    const double slack = 1e-9;  // m
-    for (std::size_t k = 0; k < scene.structure.size(); ++k) {
-        const auto [x0, x1, z0, z1] = extent(scene.structure[k]);
-        if (scene.tank && (z1 <= (*scene.tank)[2] + slack || z0 >= (*scene.tank)[3] - slack))
-            section.problem("structure",
-                            fmt::format("polygon {} (z = {:g} to {:g} m) lies outside the tank, z = {:g} to "
-                                        "{:g} m",
-                                        k + 1, z0, z1, (*scene.tank)[2], (*scene.tank)[3]));
-        else if (x1 <= scene.offshore + slack || x0 >= scene.onshore - slack)
-            section.problem("structure",
-                            fmt::format("polygon {} (x = {:g} to {:g} m) lies outside the near field, x = "
-                                        "{:g} to {:g} m",
-                                        k + 1, x0, x1, scene.offshore, scene.onshore));
-        else if (!scene.tank && z1 <= std::min(bottom_level(scene, x0), bottom_level(scene, x1)) - slack)
-            section.problem("structure", fmt::format("polygon {} lies wholly under the bed", k + 1));
-    }
-    for (std::size_t k = 0; k < scene.water.size(); ++k) {
-        const auto [x0, x1, z0, z1] = extent(scene.water[k]);
-        const std::string where =
-            fmt::format("polygon {} (x = {:g} to {:g}, z = {:g} to {:g} m)", k + 1, x0, x1, z0, z1);
-        if (scene.tank && (x0 < (*scene.tank)[0] - slack || x1 > (*scene.tank)[1] + slack ||
-                           z0 < (*scene.tank)[2] - slack || z1 > (*scene.tank)[3] + slack))
-            section.problem("water", where + " leaves the tank");
-        if (!scene.tank && (x0 < scene.offshore - slack || x1 > scene.onshore + slack))
-            section.problem("water", fmt::format("{} leaves the near field, x = {:g} to {:g} m", where,
-                                                 scene.offshore, scene.onshore));
-        else if (scene.drive == Drive::piston && x0 < scene.wall_at_start() - slack)
-            section.problem("water", fmt::format("{} stands behind the piston, which starts at x = {:g} m",
-                                                 where, scene.wall_at_start()));
-        for (std::size_t m = 0; m < k; ++m)
-            if (overlap(scene.water[m], scene.water[k]))
-                section.problem("water", fmt::format("polygons {} and {} overlap: their water would stand "
-                                                     "in one place twice",
-                                                     m + 1, k + 1));
-    }
-}
-
 void read_water_velocity(const Section& section, Scene& scene) {
     scene.water_velocity = section.points("water_velocity", "m/s",
                                           "u, w at the start, of each polygon of cmps.water; none: at rest",
@@ -169,88 +120,6 @@ bool read_geometry(const common::SceneFile& file, const Section& section, Scene&
     return is_sound && scene.onshore > scene.offshore && (scene.tank || !scene.bed.empty());
 }
 
-/// A tank has its own walls; only a piston may stand elsewhere in it.
-void check_tank_ends(const Section& section, const Scene& scene) {
-    if (!scene.tank) return;
-    const auto [x0, x1, z0, z1] = *scene.tank;
-    if (scene.drive == Drive::waves)
-        section.problem("drive", "waves come into a flume, not into a tank: give flume.bed, or a piston");
-    if (scene.drive == Drive::none && scene.offshore != x0)
-        section.problem("offshore",
-                        fmt::format("the tank's wall stands at x = {:g} m: only a piston may stand "
-                                    "elsewhere",
-                                    x0));
-    if (scene.drive == Drive::piston && (scene.offshore < x0 || scene.offshore >= x1))
-        section.problem("offshore", fmt::format("lies outside the tank, x = {:g} to {:g} m", x0, x1));
-    if (scene.onshore != x1)
-        section.problem("onshore", fmt::format("the tank's wall stands at x = {:g} m", x1));
-}
-
-/// The moving wall must have its way free.
-void check_wall_path(const Section& section, const Scene& scene) {
-    if (scene.drive == Drive::none) return;
-    const bool is_piston = scene.drive == Drive::piston;
-    const double from = scene.offshore + scene.piston.least, to = scene.offshore + scene.piston.most;
-    const double room = 4 * scene.settings.spacing;
-    for (const Polygon& polygon : scene.structure) {
-        const auto [x0, x1, z0, z1] = extent(polygon);
-        if (to <= x0 - room || from >= x1) continue;
-        section.problem(
-            is_piston && scene.offshore <= x0 - room ? "piston_file" : "offshore",
-            fmt::format("the moving wall at x = {:g} m stands in the structure (x = {:g} to {:g} m) or less "
-                        "than four particles ahead of it",
-                        to, x0, x1));
-    }
-    if (is_piston && to > scene.onshore - room)
-        section.problem("piston_file",
-                        fmt::format("the piston goes to x = {:g} m, through the shoreward end at {:g} m", to,
-                                    scene.onshore));
-}
-
-/// What particles of this spacing cannot resolve.
-void check_narrow_places(const Section& section, const Scene& scene, const Solid& solid) {
-    const double l0 = scene.settings.spacing, top = out_of_reach(scene);
-    const auto where = [&](const NarrowPlace& place) {
-        return fmt::format("at ({:.4g}, {:.4g}) m", place.at[0], place.at[1]);
-    };
-    const auto key = [](const NarrowPlace& place) {
-        return std::max(place.body, place.opposite) >= 0 ? "structure" : "particle_spacing";
-    };
-    const auto spacing_that_does = [](double most) {  // rounded down to two digits
-        const double digit = std::pow(10.0, std::floor(std::log10(most)) - 1);
-        return std::floor(most / digit * (1 + 1e-9)) * digit;
-    };
-    const double thickness = std::max(least_thickness, scene.settings.kernel_radius_ratio);
-    if (const auto place = thinnest_body(solid, thickness * l0, l0, top))
-        section.problem(
-            key(*place),
-            fmt::format(
-                "{} it is {:.3g} m thick, thinner than {:g} particles of {:g} m: the pressures of its "
-                "two sides would mix; a particle_spacing of {:g} m would do",
-                where(*place), place->width, thickness, l0, spacing_that_does(place->width / thickness)));
-    if (const auto place = narrowest_gap(solid, l0, top))
-        section.problem(
-            key(*place),
-            fmt::format("{} a gap is {:.3g} m wide, narrower than {:g} particles of {:g} m: close it; a "
-                        "particle_spacing of {:g} m would do",
-                        where(*place), place->width, least_gap, l0,
-                        spacing_that_does(place->width / least_gap)));
-}
-
-/// Gauges in the solid have no water to read. On its face they may stand.
-void check_gauges(const common::SceneFile& file, const Scene& scene, const Solid& solid) {
-    using Kind = common::Gauge::Kind;
-    for (const common::Gauge& gauge : scene.gauges) {
-        if (gauge.kind != Kind::pressure && gauge.kind != Kind::velocity) continue;
-        if (gauge.x < scene.offshore || gauge.x > scene.onshore) continue;  // another stage's
-        std::size_t nearest = 0;
-        if (!solid.contains(gauge.x, gauge.z)) continue;
-        if (solid.distance(gauge.x, gauge.z, nearest) <= 0.1 * scene.settings.spacing) continue;
-        file.section("gauges").problem(
-            gauge.name, fmt::format("({:g}, {:g}) m lies inside bed, structure or walls", gauge.x, gauge.z));
-    }
-}
-
 void read_numerics(const common::SceneFile& file, const Section& section, Scene& scene, double depth) {
     Settings& settings = scene.settings;
     const Level level = level_of(file.accuracy());
@@ -259,7 +128,7 @@ void read_numerics(const common::SceneFile& file, const Section& section, Scene&
                                       "(draft 16, standard 24, fine 30)",
                                       Range::positive(), depth / level.over_depth);
     const auto is_drop = [&](const Polygon& polygon) {  // a few particles, side by side too
-        const auto [x0, x1, z0, z1] = extent(polygon);
+        const auto [x0, x1, z0, z1] = bounding_box(polygon);
         return x1 - x0 < 3 * settings.spacing && z1 - z0 < 3 * settings.spacing;
     };
     if (settings.spacing > 0.34 * depth &&
@@ -489,26 +358,6 @@ void read_output(const common::SceneFile& file, const Section& section, Scene& s
                     Range::not_negative(), interval);
 }
 
-/// Gauges that this stage alone could read, where it has no water. Surfaces outside the near field are the
-/// waves' own.
-void check_gauges(const common::SceneFile& file, const Scene& scene) {
-    using Kind = common::Gauge::Kind;
-    if (scene.offshore >= scene.onshore) return;  // said already
-    for (const common::Gauge& gauge : scene.gauges) {
-        const bool is_inside = gauge.x >= scene.offshore && gauge.x <= scene.onshore;
-        if (!is_inside && (gauge.kind != Kind::surface || scene.drive != Drive::waves))
-            file.section("gauges").problem(
-                gauge.name, fmt::format("x = {:g} m lies outside the near field, x = {:g} to {:g} m", gauge.x,
-                                        scene.offshore, scene.onshore));
-        const bool has_level = gauge.kind == Kind::pressure || gauge.kind == Kind::velocity;
-        if (is_inside && has_level && scene.tank &&
-            (gauge.z < (*scene.tank)[2] || gauge.z > (*scene.tank)[3]))
-            file.section("gauges").problem(
-                gauge.name, fmt::format("z = {:g} m lies outside the tank, z = {:g} to {:g} m", gauge.z,
-                                        (*scene.tank)[2], (*scene.tank)[3]));
-    }
-}
-
 }  // namespace
 
 bool Scene::has_effect(const std::string& name) const {
@@ -539,7 +388,7 @@ Scene read_scene(const common::SceneFile& file) {
     read_waves(file, scene, depth);
     read_output(file, section, scene);
     scene.gauges = common::read_gauges(file, 0.02);
-    check_gauges(file, scene);
+    check_reach_of_gauges(file, scene);
     for (const common::Gauge& gauge : scene.gauges)
         if (std::min(scene.time.window, scene.time.end) / gauge.interval > most_gauge_samples)
             file.section("gauges").problem(
@@ -551,11 +400,7 @@ Scene read_scene(const common::SceneFile& file) {
     check_tank_ends(section, scene);
     is_sound &= scene.settings.spacing > 1e-4 * depth && scene.settings.spacing < depth;
     if (!is_sound) return scene;
-    check_places(section, scene);
-    check_wall_path(section, scene);
-    const Solid solid = make_solid(scene);
-    check_narrow_places(section, scene, solid);
-    check_gauges(file, scene, solid);
+    check_geometry(file, section, scene);
     return scene;
 }
 
