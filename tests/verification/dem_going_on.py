@@ -8,32 +8,12 @@ import time
 import h5py
 import numpy as np
 
+from dem_armour import small_armour
 from dem_flow import standing_wave, write_flow
 from dem_program import DEM, Checks, run
 
 check = Checks()
-SCENE = """
-[time]
-end = 2.0
-window = 0.25
-[dem]
-width = 0.2
-planes = [{ point = [1.0, 0.0, 0.0], normal = [-1.0, 0.0, 0.0] }]
-[dem.blocks]
-shape = "beehive96"
-rows = 3
-columns = 4
-origin = [0.925, 0.025]
-pitch = [0.05, 0.05]
-fixed_rows = 1
-[dem.mound]
-profile = [[0.6, -0.2], [1.0, -0.2]]
-roughness = 0.008
-[wires]
-psi = 0.3
-[[wires.along]]
-rows = [3]
-"""
+SCENE = small_armour(2.0, linked_row=3)
 flow = tempfile.mkdtemp(prefix="tsunagi_flow_")
 wave = standing_wave(0.25, 1.2, 0.3, 1.0)
 write_flow(flow, wave, np.linspace(0.5, 1.0, 26), np.linspace(-0.3, 0.2, 26), 0.0, 2.0, 0.25, 0.025)

@@ -9,35 +9,14 @@ import time
 import h5py
 import numpy as np
 
+from dem_armour import COLUMNS, ROWS, small_armour
 from dem_flow import standing_wave, write_flow
 from dem_program import DEM, Checks, run
 
 check = Checks()
-D, ROWS, COLUMNS = 0.008, 3, 4
-SCENE = """
-[time]
-end = 1.0
-window = 0.25
-[dem]
-width = 0.2
-planes = [{ point = [1.0, 0.0, 0.0], normal = [-1.0, 0.0, 0.0] }]
-[dem.blocks]
-shape = "beehive96"
-rows = 3
-columns = 4
-origin = [0.925, 0.025]
-pitch = [0.05, 0.05]
-fixed_rows = 1
-[dem.mound]
-profile = [[0.6, -0.2], [1.0, -0.2]]
-roughness = 0.008
-[wires]
-psi = 0.3
-[[wires.along]]
-rows = [1]
-"""
+D = 0.008
+SCENE, LATER = small_armour(1.0, linked_row=1), small_armour(2.0, linked_row=1)
 LAYOUT = "[wires.put_back]\nrows = [2]\n[[wires.along]]\nrows = [1, 2, 3]\n[[wires.across]]\ncolumns = [1, 2, 3, 4]\nwires = 3\n"
-LATER = SCENE.replace("end = 1.0", "end = 2.0")
 base = tempfile.mkdtemp(prefix="tsunagi_dem_")
 
 
