@@ -42,24 +42,31 @@ std::vector<WirePlace> facing_spheres(const Blocks& placed, std::uint32_t block_
     Eigen::Index axis = 0;
     between.cwiseAbs().maxCoeff(&axis);
     const Vector direction = Vector::Unit(axis) * (between[axis] < 0 ? -1.0 : 1.0);
-    const auto side_a = side_spheres(placed, block_a, direction);
-    auto side_b = side_spheres(placed, block_b, -direction);
+    auto side_a = side_spheres(placed, block_a, direction),
+         side_b = side_spheres(placed, block_b, -direction);
+    // The side of fewer spheres chooses, of equal ones that of the lower block: whichever end is named first.
+    const bool a_chooses = side_a.size() != side_b.size() ? side_a.size() < side_b.size() : block_a < block_b;
+    const auto& choosing = a_chooses ? side_a : side_b;
+    auto& open = a_chooses ? side_b : side_a;
     std::vector<WirePlace> pairs;
-    for (const auto a : side_a) {
-        auto nearest = side_b.end();
+    for (const auto own : choosing) {
+        auto nearest = open.end();
         double least = std::numeric_limits<double>::infinity();
-        for (auto b = side_b.begin(); b != side_b.end(); ++b) {
-            Vector across = placed.sphere_centre(block_b, *b) + image - placed.sphere_centre(block_a, a);
+        for (auto other = open.begin(); other != open.end(); ++other) {
+            const auto a = a_chooses ? own : *other, b = a_chooses ? *other : own;
+            Vector across = placed.sphere_centre(block_b, b) + image - placed.sphere_centre(block_a, a);
             across[axis] = 0;
             // A hair's breadth of preference for the first keeps ties from being decided by rounding.
             if (across.norm() < least - 1e-9) {
                 least = across.norm();
-                nearest = b;
+                nearest = other;
             }
         }
-        if (nearest == side_b.end()) break;
-        pairs.push_back({block_a, a, block_b, *nearest});
-        side_b.erase(nearest);
+        if (a_chooses)
+            pairs.push_back({block_a, own, block_b, *nearest});
+        else
+            pairs.push_back({block_a, *nearest, block_b, own});
+        open.erase(nearest);
     }
     return pairs;
 }

@@ -256,10 +256,12 @@ class PlacementJudge {
                    std::size_t placed_singly)
         : dem_(dem), scene_(scene), mound_(mound), placed_singly_(placed_singly) {}
 
-    /// Stops at the first kind of mistake: a block beside the mound, inside it, or in another.
+    /// Stops at the first kind of mistake: blocks that the mound lets through, a block beside the mound,
+    /// inside it, or in another.
     void judge() const {
-        if (!stand_over_the_mound() || !stand_above_the_mound()) return;
+        if (!are_held_by_the_mound() || !stand_over_the_mound() || !stand_above_the_mound()) return;
         const double allowed = scene_.step.element_overlap_allowed * scene_.element.diameter;
+        if (!stand_outside_each_other(allowed) || !stand_near_the_origin()) return;
         const auto clash = deepest_overlap(scene_.placed, scene_.surroundings);
         if (clash.depth > allowed)
             problem(clash.block, "origin",
@@ -268,12 +270,29 @@ class PlacementJudge {
     }
 
  private:
-    void problem(std::size_t block, const char* key_of_armour, const std::string& message) const {
+    void problem(std::size_t block, const char* key_of_armour, const std::string& message,
+                 const char* key_of_single = "position") const {
         const auto tables = dem_.tables("block");
         if (block >= placed_singly_ && block - placed_singly_ < tables.size())
-            tables[block - placed_singly_].problem("position", message);
+            tables[block - placed_singly_].problem(key_of_single, message);
         else
             dem_.table("blocks").problem(key_of_armour, message);
+    }
+
+    /// Columns stand d apart: between four of them is room for spheres of 0.41 d.
+    bool are_held_by_the_mound() const {
+        const double gap = (std::sqrt(2.0) - 1) * scene_.element.diameter;
+        for (std::size_t i = 0; i < scene_.placed.size() && !scene_.mound.empty(); ++i) {
+            const double diameter = scene_.placed.shape_of(i).diameter;
+            if (scene_.placed.is_fixed[i] || diameter > gap) continue;
+            problem(
+                i, "shape",
+                fmt::format("spheres of {:.2g} m fall through the mound, between whose columns are {:.2g} m",
+                            diameter, gap),
+                "shape");
+            return false;
+        }
+        return true;
     }
 
     /// A block at rest with no mound and no floor under it would fall for ever.
@@ -311,6 +330,50 @@ class PlacementJudge {
         return true;
     }
 
+    /// Contacts are sought at spheres that can be touched from outside: a block within another would meet
+    /// none.
+    bool stand_outside_each_other(double allowed) const {
+        const Blocks& blocks = scene_.placed;
+        const PairList list(blocks, scene_.surroundings, scene_.step.skin);
+        for (const auto& pair : list.pairs()) {
+            if (!list.is_block(pair.partner)) continue;
+            const Shape &a = blocks.shape_of(pair.block), &b = blocks.shape_of(pair.partner);
+            const Vector image(0, pair.image * scene_.surroundings.period, 0);
+            const double apart = (blocks.position[pair.partner] + image - blocks.position[pair.block]).norm();
+            if (apart > std::max(a.radius, b.radius)) continue;
+            for (std::size_t k = 0; k < a.spheres.size(); ++k)
+                for (std::size_t l = 0; l < b.spheres.size(); ++l) {
+                    const double depth =
+                        0.5 * (a.diameter + b.diameter) -
+                        (blocks.sphere_centre(pair.partner, l) + image - blocks.sphere_centre(pair.block, k))
+                            .norm();
+                    if (depth <= allowed) continue;
+                    problem(pair.partner, "origin",
+                            fmt::format("block {} starts {:.2g} m deep in block {}; at most {:.2g} m",
+                                        pair.partner + 1, depth, pair.block + 1, allowed));
+                    return false;
+                }
+        }
+        return true;
+    }
+
+    /// Contacts live in hundredths of a thousandth of an element: positions must tell them apart.
+    bool stand_near_the_origin() const {
+        const double least = 1e-6 * scene_.element.diameter;
+        for (std::size_t i = 0; i < scene_.placed.size(); ++i) {
+            const double rounding =
+                scene_.placed.position[i].cwiseAbs().maxCoeff() * std::numeric_limits<double>::epsilon();
+            if (rounding <= least) continue;
+            problem(
+                i, "origin",
+                fmt::format("block {} is so far from the origin that its place is rounded to {:.1g} m; at "
+                            "most {:.1g} m",
+                            i + 1, rounding, least));
+            return false;
+        }
+        return true;
+    }
+
     const Section& dem_;
     const Scene& scene_;
     const FixedSpheres& mound_;  // without other fixed spheres: below those there may be room
@@ -326,6 +389,15 @@ void judge_fixed_spheres(const Section& dem, const std::vector<Vector>& given) {
             dem.problem("fixed_spheres",
                         fmt::format("spheres {} and {} are at the same place", other->second + 1, i + 1));
     }
+}
+
+/// Smaller spheres than a shape's own reach deeper into it: those of other shapes, and fixed ones.
+void expose_to_smaller_spheres(std::vector<Shape>& shapes, double fixed_diameter) {
+    double smallest = fixed_diameter;
+    for (const auto& shape : shapes) smallest = std::min(smallest, shape.diameter);
+    for (auto& shape : shapes)
+        if (smallest < shape.diameter)
+            shape.exposed = exposed_spheres(shape.spheres, shape.diameter, smallest);
 }
 
 /// Spheres that never move: those given one by one, and the mound's columns. Returns the latter.
@@ -366,6 +438,7 @@ void read_blocks(const SceneFile& file, Scene& scene) {
     if (armour) place_armour(dem, scene, *armour, scene.surroundings.fixed_spheres);
     const std::size_t placed_singly = scene.placed.size();
     read_single_blocks(dem, book, scene);
+    expose_to_smaller_spheres(scene.placed.shapes, scene.element.diameter);
     if (scene.surroundings.period > 0) {
         double farthest = 0;
         for (const auto& shape : scene.placed.shapes) farthest = std::max(farthest, shape.radius);

@@ -9,28 +9,6 @@ namespace dem {
 
 namespace {
 
-/// Spheres that a sphere of the same size can touch without cutting into others by more than a twentieth.
-std::vector<int> find_exposed(const std::vector<Vector>& spheres, double diameter) {
-    constexpr int directions = 600;
-    const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
-    const double least_distance = 0.95 * diameter;
-    std::vector<int> exposed;
-    for (std::size_t i = 0; i < spheres.size(); ++i) {
-        bool reachable = false;
-        for (int k = 0; k < directions && !reachable; ++k) {
-            const double z = 1 - (2 * k + 1.0) / directions, r = std::sqrt(1 - z * z);
-            const Vector visitor = spheres[i] + diameter * Vector(r * std::cos(golden_angle * k),
-                                                                  r * std::sin(golden_angle * k), z);
-            reachable = true;
-            for (std::size_t j = 0; j < spheres.size() && reachable; ++j)
-                if (j != i && (visitor - spheres[j]).squaredNorm() < least_distance * least_distance)
-                    reachable = false;
-        }
-        if (reachable) exposed.push_back(static_cast<int>(i));
-    }
-    return exposed;
-}
-
 /// Rotation onto principal axes; none where the axes already are principal.
 Quaternion principal_axes(const Rotation& inertia) {
     const double off_diagonal = std::abs(inertia(0, 1)) + std::abs(inertia(0, 2)) + std::abs(inertia(1, 2));
@@ -42,6 +20,28 @@ Quaternion principal_axes(const Rotation& inertia) {
 }
 
 }  // namespace
+
+std::vector<int> exposed_spheres(const std::vector<Vector>& spheres, double diameter,
+                                 double visitor_diameter) {
+    constexpr int directions = 600;
+    const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
+    const double reach = 0.5 * (diameter + visitor_diameter), least_distance = 0.95 * reach;
+    std::vector<int> exposed;
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+        bool reachable = false;
+        for (int k = 0; k < directions && !reachable; ++k) {
+            const double z = 1 - (2 * k + 1.0) / directions, r = std::sqrt(1 - z * z);
+            const Vector visitor = spheres[i] + reach * Vector(r * std::cos(golden_angle * k),
+                                                               r * std::sin(golden_angle * k), z);
+            reachable = true;
+            for (std::size_t j = 0; j < spheres.size() && reachable; ++j)
+                if (j != i && (visitor - spheres[j]).squaredNorm() < least_distance * least_distance)
+                    reachable = false;
+        }
+        if (reachable) exposed.push_back(static_cast<int>(i));
+    }
+    return exposed;
+}
 
 Shape make_shape(const ShapeDescription& description, const Element& element, double water_density) {
     const std::size_t count = description.spheres.size();
@@ -104,7 +104,7 @@ Shape make_shape(const ShapeDescription& description, const Element& element, do
         shape.high = shape.high.cwiseMax(sphere);
         shape.radius = std::max(shape.radius, sphere.norm() + radius);
     }
-    shape.exposed = find_exposed(shape.spheres, shape.diameter);
+    shape.exposed = exposed_spheres(shape.spheres, shape.diameter, shape.diameter);
     return shape;
 }
 

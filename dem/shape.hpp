@@ -46,4 +46,9 @@ struct Shape {
 /// spheres; twice the same sphere; mass or inertia not positive; moments that no body has).
 Shape make_shape(const ShapeDescription& description, const Element& element, double water_density);
 
+/// Numbers of those of `spheres` that a sphere of `visitor_diameter` (m) can touch without cutting into
+/// others by more than a twentieth. make_shape() takes a visitor of the shape's own diameter.
+std::vector<int> exposed_spheres(const std::vector<Vector>& spheres, double diameter,
+                                 double visitor_diameter);
+
 }  // namespace dem

@@ -40,6 +40,7 @@ void Simulation::add_water(FluidProperties properties, std::variant<UniformWater
 void Simulation::mount_wires(Wires mounted) {
     wires = std::move(mounted);
     pull_at_look_.assign(wires.size(), Vector::Zero());
+    link_loads_.clear();
     link_loads_.push_back(std::make_unique<WireLoads>(wires));
     link_loads_.back()->awake_changed(is_awake_);
 }

@@ -229,6 +229,43 @@ TEST(Layout, FacingSidesArePairedAcrossTheGap) {
               5u);
 }
 
+/// The wires of a link, lower block first, in order of the spheres.
+std::vector<dem::WirePlace> in_block_order(std::vector<dem::WirePlace> places) {
+    for (auto& place : places) place = dem::in_order(place);
+    std::sort(places.begin(), places.end());
+    return places;
+}
+
+TEST(Layout, TheSmallerSideChoosesItsNearestWhicheverEndIsNamedFirst) {
+    World world;
+    world.add("beehive96", Vector(0, 0, 0));
+    world.add("sphere", Vector(0.05, 0.004, 0));
+    const auto one = dem::facing_spheres(world.blocks, 0, 1);
+    ASSERT_EQ(one.size(), 1u);
+    const Vector across =
+        world.blocks.sphere_centre(1, one[0].sphere_b) - world.blocks.sphere_centre(0, one[0].sphere_a);
+    // Columns of the face stand at odd multiples of 4 mm: the sphere looks straight at one of them.
+    EXPECT_LT(Vector(0, across.y(), across.z()).norm(), 1e-12);
+    EXPECT_EQ(in_block_order(one), in_block_order(dem::facing_spheres(world.blocks, 1, 0)));
+    // Faces shifted against each other: who is nearest depends on who chooses first.
+    world.add("cube27", Vector(0, 0.2, 0));
+    world.add("cube27", Vector(0.05, 0.212, 0.013));
+    EXPECT_EQ(in_block_order(dem::facing_spheres(world.blocks, 2, 3)),
+              in_block_order(dem::facing_spheres(world.blocks, 3, 2)));
+}
+
+TEST(Wires, MountedAgainTheyReplaceThoseThere) {
+    World world;
+    for (int k = 0; k < 2; ++k) world.add("sphere", Vector(0.02 * k, 0, 0));
+    const auto simulation = world.build();
+    dem::Wires wires;
+    wires.longest_stretch = 1;
+    wires.add(0, 0, 1, 0, 0.01, 100);
+    for (int times = 0; times < 2; ++times) simulation->mount_wires(wires);
+    simulation->start(0);
+    EXPECT_NEAR(simulation->blocks.force[0].x(), 100 * 0.01, 1e-12);  // rounding
+}
+
 /// u = 1 + 2x - z, w = x z, at t; bilinear and linear in time, so that interpolation is exact.
 dem::FlowHistory linear_flow() {
     dem::FlowHistory history;
