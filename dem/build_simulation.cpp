@@ -46,11 +46,10 @@ std::unique_ptr<Simulation> build_packing(const Scene& scene) {
 
 void settle(Simulation& simulation, const PackingRules& rules, const std::string& when,
             const std::function<void(double)>& progress) {
-    constexpr double look_interval = 0.02;  // s; a block falls 2 mm in it
     simulation.start(0);
     int calm = 0;
     while (simulation.time() < rules.longest) {
-        simulation.advance(simulation.time() + look_interval);
+        simulation.advance(simulation.time() + rules.look_interval);
         progress(simulation.time());
         double fastest = 0;
         for (std::size_t i = 0; i < simulation.blocks.size(); ++i)
@@ -121,10 +120,10 @@ Snapshot snapshot_from_window(const std::filesystem::path& from, const Scene& sc
         const auto close = std::find_if(times.begin(), times.end(),
                                         [&](double t) { return std::abs(t - *scene.restart_time) < 1e-6; });
         if (close == times.end())
-            throw common::InputError(
-                fmt::format("{}: no sample at dem.restart.time = {} s; it holds {} to {} s every {} s",
-                            from.string(), *scene.restart_time, times.front(), times.back(),
-                            times.size() > 1 ? times[1] - times[0] : 0.0));
+            throw common::InputError(fmt::format(
+                "{}: no sample at dem.restart.time = {} s; it holds {:.10g} to {:.10g} s every {:.10g} s",
+                from.string(), *scene.restart_time, times.front(), times.back(),
+                times.size() > 1 ? times[1] - times[0] : 0.0));
         sample = static_cast<std::size_t>(close - times.begin());
     }
     Snapshot snapshot;

@@ -45,12 +45,11 @@ StepWork work_of_a_step(const Scene& scene) {
         }
     };
     try {
-        // Blocks are placed a tenth of an element above the mound; they are down after sqrt(2 h / g) = 0.02
-        // s.
-        advance_until(std::min(0.05, 0.5 * longest), 2);
+        // The paper's blocks are placed a tenth of an element above the mound, and are down after 0.016 s.
+        advance_until(std::min(0.05 * scene.time_scale, 0.5 * longest), 2);
         mount_layout(*simulation, scene, nullptr);
         before = simulation->steps();
-        advance_until(std::min(simulation->time() + 2, longest), 0.2);
+        advance_until(std::min(simulation->time() + 2 * scene.time_scale, longest), 0.2);
     } catch (const common::RunError& error) {
         work.stopped_by = error.what();  // where the run would stop as well, the forecast says so
     }
@@ -107,14 +106,14 @@ void check(const common::StageCommand& command, const common::SceneFile& file, c
         fmt::print("{}", file.reference());
         return;
     }
-    require_input(command, scene);
+    const double begin = require_input(command, scene);
     std::size_t spheres = 0, moving = 0;
     for (std::size_t i = 0; i < scene.placed.size(); ++i) {
         spheres += scene.placed.shape_of(i).spheres.size();
         moving += !scene.placed.is_fixed[i];
     }
-    const double steps = std::ceil(scene.time.end / scene.step.time_step);
-    const double limit = require_stable_step(file, scene);
+    const double steps = std::ceil((scene.time.end - begin) / scene.step.time_step);
+    const StepLimit limit = require_stable_step(file, scene);
     const StepWork work = work_of_a_step(scene);
     const PackingWork packing =
         command.from.empty() ? work_of_packing(scene, work) : PackingWork{"stored (--from)", 0};
@@ -125,15 +124,17 @@ void check(const common::StageCommand& command, const common::SceneFile& file, c
                                scene.surroundings.planes.size())},
          {"links", fmt::format("{}", scene.wires.links.size())},
          {"a step", fmt::format("{} contacts, {} wires", work.contacts, work.wires)},
-         {"steps", fmt::format("at most {:.0f} of {:.3g} s ({}; {}); the flow may start later", steps,
-                               scene.step.time_step, scene.time_step_is_chosen ? "chosen" : "given",
-                               std::isfinite(limit) ? fmt::format("first contacts allow {:.2g} s", limit)
-                                                    : std::string("nothing touches at first"))},
+         {"steps", fmt::format("at most {:.0f} of {:.3g} s ({}; {}){}", steps, scene.step.time_step,
+                               scene.time_step_is_chosen ? "chosen" : "given",
+                               std::isfinite(limit.time_step) ? fmt::format("{} a limit of {:.2g} s at first",
+                                                                            limit.set_by, limit.time_step)
+                                                              : std::string("nothing touches at first"),
+                               command.upstream.empty() ? "; a flow may start later" : "")},
          {"packing", packing.text},
          {"run time", run_time_line(work, work.seconds * steps + packing.seconds)},
          {"error",
           fmt::format("energy balance about {:.1g} of what contacts dissipate (first order in the step)",
-                      0.01 * scene.step.time_step / 1e-4 * std::sqrt(scene.material.young_modulus / 1e7))}});
+                      0.01 * scene.step.time_step / scene.usual_time_step)}});
 }
 
 }  // namespace dem

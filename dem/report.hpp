@@ -49,10 +49,13 @@ class Report {
 };
 
 /// Energy that changed hands since `first`: through contacts and water, into motion and back, and what was
-/// stored to start with, J.
-double exchanged_energy(const EnergyBudget& energy, const EnergyBudget& first);
+/// stored to start with, J; at least `trifle`.
+double exchanged_energy(const EnergyBudget& energy, const EnergyBudget& first, double trifle = 0);
+
+/// Energy that rounding alone may give or take, J: a balance is not judged by it.
+double trifling_energy(const Scene& scene, const EnergyBudget& energy);
 
 /// Error of the energy balance over the energy exchanged; 0 where none was.
-double closure_error(const EnergyBudget& energy, const EnergyBudget& first);
+double closure_error(const EnergyBudget& energy, const EnergyBudget& first, double trifle = 0);
 
 }  // namespace dem

@@ -191,10 +191,10 @@ void report_breaks(const Wires& mounted, const Wires& now, Report& report) {
 
 }  // namespace
 
-void require_input(const common::StageCommand& command, const Scene& scene) {
-    if (command.from.empty() && command.upstream.empty()) return;
+double require_input(const common::StageCommand& command, const Scene& scene) {
+    if (command.from.empty() && command.upstream.empty()) return 0;
     FlowSource flow(command, scene);
-    enter(command, scene, flow);
+    return enter(command, scene, flow).begin;
 }
 
 void pack(const common::StageCommand& command, const common::SceneFile& file, const Scene& scene) {

@@ -10,9 +10,9 @@ namespace dem {
 /// `dem check`: what would be simulated, why, and how long it would take; runs nothing.
 void check(const common::StageCommand& command, const common::SceneFile& file, const Scene& scene);
 
-/// Throws common::InputError where the flow or the earlier state that a run would start from does not fit the
-/// scene; nothing when neither is given.
-void require_input(const common::StageCommand& command, const Scene& scene);
+/// Time at which a run would start, s: that of the flow or of the earlier state, 0 without either. Throws
+/// common::InputError where they do not fit the scene.
+double require_input(const common::StageCommand& command, const Scene& scene);
 
 /// `dem pack`: settles the blocks and stores the state.
 void pack(const common::StageCommand& command, const common::SceneFile& file, const Scene& scene);

@@ -51,6 +51,8 @@ void read_material(const Section& dem, Scene& scene) {
                    "overlap where k_n of the linear law and of wires is taken from Hertz theory",
                    Range{.lowest = 0, .highest = 0.2, .lowest_is_open = true}, 0.01);
     scene.gravity = read_vector(dem, "gravity", "m/s2", "acceleration of gravity", Vector(0, 0, -9.81));
+    const double gravity = scene.gravity.norm();
+    if (gravity > 0) scene.time_scale = std::sqrt(scene.element.diameter / gravity / (0.008 / 9.81));
 }
 
 /// Defaults are shares of the time a Rayleigh wave takes over a sphere, so that they follow stiffness and
@@ -144,9 +146,44 @@ void read_sleep(const Section& dem, Scene& scene) {
                         {.lowest = 0, .highest = 0.5, .lowest_is_open = true}, 0.1);
 }
 
-/// Blocks lighter than the water they push aside would rise for ever instead of settling.
+/// Whether anything can stop blocks that go where gravity pulls: columns and spheres that do not move, or a
+/// plane that faces them and is not steeper than friction holds.
+bool may_come_to_rest(const Scene& scene) {
+    const double gravity = scene.gravity.norm();
+    const auto& surroundings = scene.surroundings;
+    if (gravity == 0) return true;
+    const bool has_mound = !scene.mound.empty();
+    if (has_mound && scene.gravity.z() < 0) return true;
+    std::size_t facing = 0;
+    bool is_steep = false;
+    for (const auto& plane : surroundings.planes) {
+        const double against = -plane.normal.dot(scene.gravity);
+        if (against <= 1e-9 * gravity) continue;
+        ++facing;
+        is_steep = std::sqrt(std::max(0.0, gravity * gravity - against * against)) >
+                   (scene.material.friction + 1e-6) * against;  // rounding: level is not steep
+    }
+    // Two planes make a wedge, and fixed spheres and blocks obstacles.
+    for (std::size_t i = 0; i < scene.placed.size(); ++i)
+        if (scene.placed.is_fixed[i] || scene.placed.is_thrown(i)) return true;
+    if (!has_mound && !surroundings.fixed_spheres.empty()) return true;
+    return facing > 1 || (facing == 1 && !is_steep);
+}
+
+/// Blocks that nothing stops, or lighter than the water they push aside, would move for ever instead of
+/// settling.
 void judge_settling(const SceneFile& file, bool dry, const Scene& scene) {
-    if (dry || !scene.packing.settle || scene.gravity.z() >= 0 || file.has_problems()) return;
+    if (!scene.packing.settle || file.has_problems()) return;
+    if (!may_come_to_rest(scene)) {
+        const auto& g = scene.gravity;
+        file.section("dem").problem(
+            "gravity",
+            fmt::format("[{}, {}, {}] m/s2: no mound, plane or fixed sphere can stop the blocks there, "
+                        "they never settle; dem.packing.method = \"none\" lets them go",
+                        g.x(), g.y(), g.z()));
+        return;
+    }
+    if (dry || scene.gravity.z() >= 0) return;
     for (std::size_t i = 0; i < scene.placed.size(); ++i) {
         const Shape& shape = scene.placed.shape_of(i);
         const double lifted = scene.water.density * shape.displaced_volume;

@@ -38,8 +38,9 @@ struct WireRules {
 /// How blocks come to rest before the run.
 struct PackingRules {
     bool settle = true;
-    double longest = 5;   ///< s
-    double speed = 1e-3;  ///< blocks slower than this have settled, m/s
+    double longest = 5;           ///< s
+    double speed = 1e-3;          ///< blocks slower than this have settled, m/s
+    double look_interval = 0.02;  ///< s; the paper's blocks fall 2 mm in it
 };
 
 /// What a scene says about blocks.
@@ -50,6 +51,7 @@ struct Scene {
     Water water;
     Material material;
     Vector gravity{0, 0, -9.81};
+    double time_scale = 1;  ///< sqrt(d / g) over that of the paper's elements: how fast blocks fall and rock
     ContactLaw contact = ContactLaw::hertz;
     double reference_overlap = 0;  ///< m
     StepRules step;

@@ -35,10 +35,15 @@ void choose_effects(const SceneFile& file, bool dry, Scene& scene) {
     choose(file, "tangential_history", has_friction,
            has_friction ? fmt::format("friction {} > 0", scene.material.friction) : "friction is 0",
            has_friction, "friction is 0", effects.tangential_history, effects);
-    choose(file, "sleeping", true, "always, unless off", true, "", effects.sleeping, effects);
-    choose(file, "still_windows", effects.sleeping,
-           effects.sleeping ? "always, with sleeping" : "sleeping is off", effects.sleeping,
-           "sleeping is off", effects.still_windows, effects);
+    // A block sleeps by what friction under its weight can still hold (effects/reserve.cpp).
+    const bool has_weight = scene.gravity.norm() > 0, may_rest = effects.tangential_history && has_weight;
+    choose(file, "sleeping", may_rest,
+           may_rest     ? "weight and friction can hold blocks at rest"
+           : has_weight ? "without friction nothing holds a block that is pushed: none would sleep"
+                        : "no gravity: nothing holds a block that is pushed, none would sleep",
+           true, "", effects.sleeping, effects);
+    choose(file, "still_windows", effects.sleeping, effects.sleeping ? "with sleeping" : "sleeping is off",
+           effects.sleeping, "sleeping is off", effects.still_windows, effects);
     if (!effects.tangential_history) scene.material.friction = 0;
     scene.step.cross_still = effects.still_windows;
 }

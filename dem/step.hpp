@@ -1,6 +1,7 @@
 /// The time step of the blocks, and the run's own books: energy, overlaps, who is awake.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -26,6 +27,12 @@ struct StepRules {
 
 /// The bound on stable steps errs by some percent: a step is past it from this many times it on.
 constexpr double time_step_margin = 1.2;
+
+/// Largest stable step, s.
+struct StepLimit {
+    double time_step = std::numeric_limits<double>::infinity();
+    const char* set_by = "nothing sets";  ///< subject and verb, for a message
+};
 
 /// Energies of the whole, J. The sum `balance` stays at its first value but for errors of the time step.
 struct EnergyBudget {
@@ -69,7 +76,8 @@ class Simulation {
     const StepRules& rules() const { return rules_; }
     /// Largest stable step at the present contacts and wires of the blocks that are awake (or of all), s; see
     /// time_step.cpp.
-    double stable_time_step(bool sleepers_too = false) const;
+    StepLimit step_limit(bool sleepers_too = false) const;
+    double stable_time_step(bool sleepers_too = false) const { return step_limit(sleepers_too).time_step; }
 
     Blocks blocks;
     Wires wires;

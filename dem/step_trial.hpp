@@ -10,10 +10,10 @@ namespace dem {
 /// mounted: a trial of 0.06 s, at a step no longer than the program's own choice. Infinite where nothing
 /// touches by then, or where so short a time would take more than 10,000 steps. What a block does later may
 /// ask for less: the run watches that by itself.
-double stable_step_after_landing(const Scene& scene);
+StepLimit stable_step_after_landing(const Scene& scene);
 
 /// Notes and throws (common::InputError) that dem.time_step is past that limit, by as much as would stop the
 /// run at its second output. Returns the limit.
-double require_stable_step(const common::SceneFile& file, const Scene& scene);
+StepLimit require_stable_step(const common::SceneFile& file, const Scene& scene);
 
 }  // namespace dem

@@ -23,6 +23,12 @@ double largest_eigenvalue(const Matrix6& matrix) {
     return Eigen::SelfAdjointEigenSolver<Matrix6>(matrix, Eigen::EigenvaluesOnly).eigenvalues()[5];
 }
 
+/// The positive root of k dt^2 + 2 c dt = 4, written so that k = 0 is no special case.
+double limit_of(const Matrix6& stiffness, const Matrix6& damping) {
+    const double k = largest_eigenvalue(stiffness), c = largest_eigenvalue(damping);
+    return 4 / (c + std::sqrt(c * c + 4 * k));
+}
+
 /// Adds value * J^T P J, with J the 3 x 6 map from the block's (scaled) velocities to the contact point and P
 /// = n n^T scaled by `normal` plus (1 - n n^T) scaled by `tangential`.
 void add_spring(Matrix6& matrix, const Vector& arm, const Vector& direction, double normal, double tangential,
@@ -73,19 +79,20 @@ void Simulation::require_drag_within(double dt) const {
     }
 }
 
-double Simulation::stable_time_step(bool sleepers_too) const {
+StepLimit Simulation::step_limit(bool sleepers_too) const {
     const std::vector<std::uint32_t>& judged = sleepers_too ? movable_ : awake_;
     std::vector<std::vector<std::uint32_t>> wires_of(judged.empty() ? 0 : blocks.size());
     for (std::uint32_t w = 0; !judged.empty() && w < wires.size(); ++w)
         if (wires.is_intact[w])
             for (const auto i : {wires.block_a[w], wires.block_b[w]}) wires_of[i].push_back(w);
-    double least = std::numeric_limits<double>::infinity();
+    StepLimit least;
     for (const auto i : judged) {
         const double inverse_root_mass = 1 / std::sqrt(blocks.mass(i));
         const Rotation& turn = blocks.rotation[i];
         const Rotation inverse_root_inertia =
             turn * blocks.inertia(i).cwiseSqrt().cwiseInverse().asDiagonal() * turn.transpose();
-        Matrix6 stiffness = Matrix6::Zero(), damping = Matrix6::Zero();
+        Matrix6 stiffness = Matrix6::Zero(), damping = Matrix6::Zero(), of_wires = Matrix6::Zero(),
+                drag = Matrix6::Zero();
         bool any = false;
         for (const auto entry : pair_list_.pairs_of(i)) {
             const Pair& pair = pair_list_.pairs()[entry >> 1];
@@ -126,17 +133,23 @@ double Simulation::stable_time_step(bool sleepers_too) const {
             any = true;
             const Vector direction = wires.between_ends(blocks, w).normalized();
             const Vector arm = blocks.arm(i, wires.block_a[w] == i ? wires.sphere_a[w] : wires.sphere_b[w]);
-            add_spring(stiffness, arm, direction, 2 * wires.stiffness[w], 0, inverse_root_mass,
+            add_spring(of_wires, arm, direction, 2 * wires.stiffness[w], 0, inverse_root_mass,
                        inverse_root_inertia);
         }
         if (water_ != nullptr && water_->load(i).wet > 0) {
             any = true;
-            damping += drag_over_mass(water_->load(i), inverse_root_mass, inverse_root_inertia);
+            drag = drag_over_mass(water_->load(i), inverse_root_mass, inverse_root_inertia);
         }
         if (!any) continue;
-        const double k = largest_eigenvalue(stiffness), c = largest_eigenvalue(damping);
-        // The positive root of k dt^2 + 2 c dt = 4, written so that k = 0 is no special case.
-        least = std::min(least, 4 / (c + std::sqrt(c * c + 4 * k)));
+        const double limit = limit_of(stiffness + of_wires, damping + drag);
+        if (!(limit < least.time_step)) continue;
+        // What would set the shortest step if it were alone.
+        const Matrix6 none = Matrix6::Zero();
+        const double contacts = limit_of(stiffness, damping), wired = limit_of(of_wires, none),
+                     dragged = limit_of(none, drag);
+        least = {limit, dragged < std::min(contacts, wired) ? "the water's drag sets"
+                        : wired < contacts                  ? "the wires set"
+                                                            : "the contacts set"};
     }
     return least;
 }

@@ -63,6 +63,20 @@ refused("mound whose x does not increase", put("", "[[0.0, -0.2], [0.2, -0.2]]",
 refused("no blocks", "[time]\nend = 1.0\n[dem]\ndry = true\n", "no blocks")
 refused("blocks inside each other", GOOD.split("[dem.blocks]")[0] +
         '[[dem.block]]\nshape = "cube27"\nposition = [0.0, 0.05, 0.0]\n[[dem.block]]\nshape = "cube27"\nposition = [0.01, 0.05, 0.0]\n', "starts", "deep in block", "position")
+INSIDE = '[time]\nend = 0.1\n[dem]\ndry = true\n[[dem.block]]\nshape = "cube27"\nposition = [0.0, 0.0, 0.0]\n[[dem.block]]\nshape = "sphere"\nposition = [{}, 0.0, 0.0]\n'
+refused("block within another, where none of its outer spheres is", INSIDE.format(0.0), "scene.toml:10:", "block 2 starts 0.008 m deep in block 1")
+check.true("and one beside it, which touches it", run(INSIDE.format(0.016)).status == 0)
+refused("block too far away to tell overlaps apart", INSIDE.format(1.0e9), "scene.toml:10:", "block 2 is so far from the origin", "2e-07 m")
+for verb in ("run", "pack", "check"):
+    refused(f"{verb}: gravity that takes blocks off the mound", put("", "width = 0.1", "width = 0.1\ngravity = [0.0, 0.0, 9.81]"), "scene.toml:6:", "dem.gravity", "never settle", verb=verb)
+refused("gravity along a mound with nothing at its end", put("", "width = 0.1", "width = 0.1\ngravity = [9.81, 0.0, 0.0]"), "scene.toml:6:", "dem.gravity", "never settle")
+AIR = GOOD.split("[dem.mound]")[0].replace("pitch", "level = 0.1\npitch")
+refused("blocks in the air over nothing", AIR, "dem.gravity", "never settle")
+SLOPE = AIR.replace("width = 0.1", "width = 0.1\n{}planes = [{{ point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }}]")
+refused("blocks on a floor steeper than friction", SLOPE.format("gravity = [6.0, 0.0, -9.81]\n"), "scene.toml:6:", "dem.gravity", "never settle")
+check.true("and on floors less steep, or level and without friction", all(run(SLOPE.format(keys)).status == 0 for keys in ("gravity = [5.0, 0.0, -9.81]\n", "friction = 0.0\n")))
+refused("spheres that fall through the mound", put('[[dem.block]]\nshape = "tiny.toml"\nposition = [0.05, 0.05, -0.1]\n'), "scene.toml:18:", "shape", "fall through the mound",
+        files={"tiny.toml": "[dem.shape]\nspheres = [[0.0, 0.0, 0.0]]\ndiameter = 0.3\n"})
 refused("block inside the mound", put('[[dem.block]]\nshape = "sphere"\nposition = [0.05, 0.05, -0.25]\n'), "starts inside the mound", "position")
 refused("effect that cannot be on", put('[effects]\nwires = "on"\n'), "effects.wires", "no links")
 
@@ -91,10 +105,11 @@ def dem_keys(text):
 
 
 for verb in ("run", "pack", "check"):
-    refused(f"{verb}: time step past what contacts bear", dem_keys("time_step = 0.01"), "scene.toml:6:", "dem.time_step", "past the limit", verb=verb)
+    refused(f"{verb}: time step past what contacts bear", dem_keys("time_step = 0.01"), "scene.toml:6:", "dem.time_step", "past the limit", "that the contacts set", verb=verb)
 refused("time step at which blocks tremble", dem_keys("time_step = 1.0e-3"), "dem.time_step", "past the limit")
 refused("dashpots too strong for the step", dem_keys("damping_ratio = 10.0"), "dem.time_step", "the program's choice")
-refused("wires too stiff for the step", put("[[wires.link]]\nblocks = [1, 2]\nstiffness = 1.0e12\n"), "dem.time_step", "wires")
+refused("wires too stiff for the step", put("[[wires.link]]\nblocks = [1, 2]\nstiffness = 1.0e12\n"), "dem.time_step", "that the wires set")
+refused("drag too stiff for the step", dem_keys("viscosity = 10.0"), "dem.time_step", "that the water's drag sets")
 refused("shape too easily turned for the step", put('[[dem.block]]\nshape = "light.toml"\nposition = [0.05, 0.05, -0.185]\n'), "dem.time_step", "past the limit",
         files={"light.toml": "[dem.shape]\nspheres = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]\ninertia = [1.0e-16, 1.0e-16, 1.0e-16]\n"})
 for step in (2.0e-4, 4.0e-4):

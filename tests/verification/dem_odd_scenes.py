@@ -66,8 +66,8 @@ write_flow(flow, lambda t, X, Z: (0.1, 0.0, 0.0, 0.0, 1.0), [-1.0, 1.0], [-1.0, 
 with h5py.File(os.path.join(flow, "window_000000.h5"), "r+") as f:
     f.attrs["t_end"] = np.nextafter(1.2, 2)
 still = "gravity = [0.0, 0.0, 0.0]"
-first = run(scene(1.2, still, block("sphere", (0, 0, 0)), window=1.2), "--flow", flow)
-r = run(scene(2.4, still, block("sphere", (0, 0, 0)), window=1.2), "--flow", flow, "--from", os.path.join(first.folder, "state.h5"))
+halfway = run(scene(1.2, still, block("sphere", (0, 0, 0)), window=1.2), "--flow", flow)
+r = run(scene(2.4, still, block("sphere", (0, 0, 0)), window=1.2), "--flow", flow, "--from", os.path.join(halfway.folder, "state.h5"))
 check.true("a restart at the rounded end of a window goes on", r.status == 0 and len(r.windows()) == 1 and abs(r.series("/time")[-1] - 2.4) < 1e-9, r.message.strip())
 
 # A flow that is followed and ends early: the run keeps what it has and says so; it is not done.
@@ -142,6 +142,52 @@ check.below("orientation in the windows against it", np.abs(np.abs(r.series("/bl
 r = run(scene(0.03, "dry = true\ngravity = [0.0, 0.0, 0.0]", block("corner.toml", (0, 0, 1), "orientation = [0.5, 0.5, 0.5, 0.5]")), "--from", os.path.join(r.folder, "window_000000.h5"), folder=again)
 check.true("a restart from that window", r.status == 0, r.message.strip())
 check.below("and the turn since packing", np.abs(r.series("/blocks/displacement")[:, 0, 2]).max(), 1e-7, "rad")  # the angle of two equal turns is a root of rounding
+
+# Two blocks at rest with wires at their rest lengths, nothing else: what rounding moves is no fault of the energy balance.
+r = run(scene(0.05, "dry = true\ngravity = [0.0, 0.0, 0.0]", block("beehive96", (0, 0, 1)) + block("corner.toml", (0.05, 0.01, 1.003)) + "[wires]\n[[wires.link]]\nblocks = [2, 1]\n"), folder=again)
+check.true("blocks that nothing moves run to their end", r.status == 0, r.message.strip())
+check.below("and their energy balance", abs(r.invariant("energy_closure")), 1e-6)
+
+# A small sphere that fits between those of a larger shape meets the ones inside: in a lattice of spheres of 2 d, that in the middle of
+# a cell, which no sphere of 2 d could touch.
+with open(os.path.join(again, "pebble.toml"), "w") as f:
+    f.write("[dem.shape]\nspheres = [[0.0, 0.0, 0.0]]\ndiameter = 0.5\n")
+places = [[2.0 * i, 2.0 * j, 2.0 * k] for i in (-1, 0, 1) for j in (-1, 0, 1) for k in (-1, 0, 1)] + [[1.0, 1.0, -1.0]]
+with open(os.path.join(again, "boulder.toml"), "w") as f:
+    f.write(f"[dem.shape]\nspheres = {places}\ndiameter = 2.0\n")
+inside = (np.array(places[-1]) - np.mean(places, axis=0)) * d
+r = run(scene(0.3, "dry = true", block("boulder.toml", (0, 0, 0), "fixed = true") + block("pebble.toml", (inside[0], inside[1], 0.03))), folder=again)
+check.true("a pebble falls down a hole of a boulder", r.status == 0, r.message.strip())
+# Pressed in by some thousandths of d.
+check.below("and lies on the sphere inside", abs(r.series("/blocks/position")[-1, 1, 2] - (inside[2] + 1.25 * d)) / d, 0.01, "d")
+
+# Size and stiffness of everything 64 times as large, times by the root of that: the trial of the step and the packing see the same.
+def scaled(size, more=""):
+    root = np.sqrt(size)
+    return f'''[time]\nend = {0.4 * root}\nwindow = {0.4 * root}
+[dem]\nelement_diameter = {0.008 * size}\nyoung_modulus = {1e7 * size}\nviscosity = {1e-6 * size * root}\noutput_interval = {0.1 * root}\nflow_interval = {2e-3 * root}\n{more}
+[dem.sleeping]\nrest_time = {0.1 * root}
+[dem.blocks]\nshape = "beehive96"\nrows = 2\ncolumns = 2\norigin = [{0.15 * size}, {0.05 * size}]\npitch = [{0.05 * size}, {0.05 * size}]
+[dem.mound]\nprofile = [[0.0, {-0.2 * size}], [{0.2 * size}, {-0.2 * size}]]\nroughness = {0.004 * size}\ny = [0.0, {0.15 * size}]\n'''
+
+
+size = 64.0
+small, large = (run(scaled(s, f"time_step = {1e-4 * np.sqrt(s)}")) for s in (1.0, size))
+check.true("packing at 64 times the size", large.status == 0, large.message.strip())
+place = [r.series("/blocks/position")[0] / s for r, s in ((small, 1.0), (large, size))]
+# Hertz contacts with E as the size: overlaps scale too, so all is similar and only rounding grows.
+check.below("comes to the same places", np.abs(place[1] - place[0]).max() / d, 1e-3, "d")
+limits = [r.figure("time_step_limit") / np.sqrt(s) for r, s in ((small, 1.0), (large, size))]
+check.below("and to the same limit of the step, times by the root", abs(limits[1] / limits[0] - 1), 1e-2)
+r = run(scaled(size, "time_step = 0.02"))
+check.true("a step past the limit of large blocks is refused before anything runs", r.status == 2 and "that the contacts set" in r.message, r.message.strip())
+r = run(scaled(size, f"time_step = {1e-4 * np.sqrt(size)}"), verb="check")
+check.true("and check tells of contacts and of an error as at the paper's size", "0 contacts" not in r.message and "the contacts set" in r.message and "balance about 0.01 " in r.message, r.message.strip()[-600:])
+
+# The forecast counts the steps of the run: from where the flow begins.
+r = run(scene(2.4, still, block("sphere", (0, 0, 0)), window=1.2), "--flow", flow, verb="check")
+begun = run(scene(2.4, still, block("sphere", (0, 0, 0)), window=1.2) + "[dem.restart]\nclock = 1.2\n", "--flow", flow, "--from", os.path.join(halfway.folder, "state.h5"), verb="check")
+check.true("steps of a run through all of a flow, and from the middle of it", "at most 24000 of" in r.message and "at most 12000 of" in begun.message, begun.message.strip()[-300:])
 
 # `check` of legal scenes: shorter than its calibration, one whose blocks leave what holds them, and one that packs.
 r = run(scene(0.03, "dry = true\n" + FLOOR, block("sphere", (0, 0, 0.5), "velocity = [0.0, 0.0, -9.0]")), verb="check")
