@@ -8,6 +8,7 @@
 
 #include "common/errors.hpp"
 #include "common/window_channel.hpp"
+#include "dem/sound_state.hpp"
 
 namespace dem {
 
@@ -174,22 +175,37 @@ Snapshot snapshot_from_window(const std::filesystem::path& from, const Scene& sc
     return snapshot;
 }
 
+/// What `read` gives; the message of an InputError begins with the file's name, as some do by themselves.
+Snapshot named(const std::filesystem::path& from, const std::function<Snapshot()>& read) {
+    try {
+        return read();
+    } catch (const common::InputError& fault) {
+        const std::string message = fault.what();
+        const bool is_named = message.starts_with(from.string()) ||
+                              message.starts_with((from.parent_path() / "geometry.h5").string());
+        throw common::InputError(is_named ? message : fmt::format("{}: {}", from.string(), message));
+    }
+}
+
 }  // namespace
 
 Snapshot read_start(const std::filesystem::path& from, const Scene& scene) {
-    if (from.filename().string().starts_with("window_")) return snapshot_from_window(from, scene);
+    if (from.filename().string().starts_with("window_"))
+        return named(from, [&] {
+            Snapshot snapshot = snapshot_from_window(from, scene);
+            require_sound(snapshot, scene.placed);
+            return snapshot;
+        });
     const common::DataFile file = common::read_data_file(from);
     if (file.text("schema") != "tsunagi.dem.state/1")
         throw common::InputError(
             fmt::format("{}: not a state of dem (schema '{}')", from.string(), file.text("schema")));
     check_same_scene(file.text("placement_digest"), scene, from);
-    Snapshot snapshot = [&] {
-        try {
-            return snapshot_from(file);
-        } catch (const common::InputError& fault) {
-            throw common::InputError(fmt::format("{}: {}", from.string(), fault.what()));
-        }
-    }();
+    Snapshot snapshot = named(from, [&] {
+        Snapshot read = snapshot_from(file);
+        require_sound(read, scene.placed);
+        return read;
+    });
     if (scene.restart_time && std::abs(*scene.restart_time - snapshot.t) > 1e-6)
         throw common::InputError(
             fmt::format("{}: holds t = {} s only; dem.restart.time = {} s needs the window of that instant",

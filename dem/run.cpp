@@ -14,6 +14,7 @@
 #include "dem/build_simulation.hpp"
 #include "dem/flow_windows.hpp"
 #include "dem/report.hpp"
+#include "dem/sound_state.hpp"
 #include "dem/start.hpp"
 #include "dem/window_output.hpp"
 
@@ -255,6 +256,7 @@ void run(const common::StageCommand& command, const common::SceneFile& file, con
         std::optional<FlowSource::Span> span = flow.receive(folder.next_window());
         if (folder.start() == common::OutputFolder::Start::go_on) {
             const Snapshot snapshot = snapshot_from(folder.state());
+            require_sound(snapshot, scene.placed);
             start = {.simulation = build_simulation(scene, true), .packed = snapshot.packed};
             if (scene.effects.wires) start.simulation->mount_wires(snapshot.wires);
             restore(*start.simulation, snapshot);

@@ -4,6 +4,7 @@
 
 #include "common/digest.hpp"
 #include "common/errors.hpp"
+#include "dem/sound_state.hpp"
 
 namespace dem {
 
@@ -170,6 +171,8 @@ std::vector<TouchingPair> contacts_from(const Dataset& bodies_of, const Dataset&
         pair.block = static_cast<std::uint32_t>(bodies[4 * k]);
         pair.partner = static_cast<std::uint32_t>(bodies[4 * k + 1]);
         pair.image = bodies[4 * k + 2];
+        if (sums != nullptr && 9 * k + 8 >= sums->doubles().size())
+            throw common::InputError("/contacts/sums has fewer rows than /contacts/bodies");
         if (sums != nullptr) {
             const double* sum = sums->doubles().data() + 9 * k;
             pair.last.force = Vector(sum);
@@ -185,6 +188,8 @@ std::vector<TouchingPair> contacts_from(const Dataset& bodies_of, const Dataset&
         }
         pairs.push_back(std::move(pair));
     }
+    if (2 * next != spheres.size())
+        throw common::InputError("/contacts/bodies names fewer contacts than there are");
     return pairs;
 }
 
@@ -233,6 +238,7 @@ DataFile to_data_file(const Snapshot& snapshot) {
 }
 
 Snapshot snapshot_from(const DataFile& file) {
+    require_sound_datasets(file);
     Snapshot snapshot;
     snapshot.t = file.number("time");
     snapshot.placement_digest = file.text("placement_digest");

@@ -1,5 +1,6 @@
 """Bad input gets one clear line with file, line and key, exit 2, before anything runs; nothing written is lost."""
 import os
+import shutil
 import tempfile
 
 import h5py
@@ -269,6 +270,31 @@ kept = os.path.join(moving.folder, "state.h5")
 refused("another rest length for a wire that is kept", GOOD.replace("end = 0.2", "end = 0.4") + "[[wires.link]]\nblocks = [2, 1]\nspheres = [1, 1]\nrest_length = 0.2\n",
         "rest_length of 0.2 m", "blocks 2 and 1", arguments=("--from", kept))
 check.true("no word where none is given", run(GOOD.replace("end = 0.2", "end = 0.4") + "[[wires.link]]\nblocks = [2, 1]\nspheres = [1, 1]\n", "--from", kept).status == 0)
+
+# Whole files whose values cannot be: said before anything runs, not after some steps as if the time step were at fault.
+def refused_state(what, name, dataset, place, value, *words):
+    folder = os.path.join(tempfile.mkdtemp(prefix="tsunagi_dem_"), "earlier")
+    shutil.copytree(moving.folder, folder)
+    with h5py.File(os.path.join(folder, name), "r+") as f:
+        values = f[dataset][:]
+        if place is None:
+            unit = f[dataset].attrs["units"]
+            del f[dataset]
+            f.create_dataset(dataset, data=values[:-1]).attrs["units"] = unit
+        else:
+            values[place] = value
+            f[dataset][...] = values
+    refused(f"{name} with {what}", GOOD.replace("end = 0.2", "end = 0.4"), name, *words, arguments=("--from", os.path.join(folder, name)))
+
+
+refused_state("a place that is no number", "state.h5", "/blocks/position", (0, 0), np.nan, "/blocks/position is not finite at element 0")
+refused_state("a speed too few", "state.h5", "/blocks/velocity", None, None, "/blocks/velocity has 3 rows, expected 4")
+refused_state("a turn that is none", "state.h5", "/blocks/orientation", 1, 0.0, "/blocks/orientation is no unit quaternion at block 1")
+refused_state("a turn that is none", "window_000001.h5", "/blocks/orientation", (-1, 1), 0.0, "/blocks/orientation is no unit quaternion at block 1")
+refused_state("a wire to no block", "state.h5", "/wires/ends", (0, 0), 99, "wires name sphere 0 of block 99")
+refused_state("a wire to no sphere", "state.h5", "/wires/ends", (0, 1), 96, "wires name sphere 96 of block 0")
+refused_state("a contact of no sphere", "window_000001.h5", "/contacts/spheres", (0, 0), 96, "contacts name sphere 96")
+refused_state("a negative number of contacts", "state.h5", "/contacts/bodies", (0, 3), -2, "/contacts/bodies names fewer contacts")
 
 # What an earlier run wrote survives a bad second call.
 done = run(GOOD)
