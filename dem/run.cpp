@@ -81,6 +81,14 @@ class FlowSource {
         return Span{begin, end,
                     flow_grid_of(*window, scene_.still_outside, reader_->path_of(first_ + index).string())};
     }
+    /// Throws InputError where window `index` does not begin at `t`, where the run stands.
+    void require_next(std::int64_t index, const Span& span, double t) const {
+        if (std::abs(span.begin - t) > tolerance)
+            throw common::InputError(
+                fmt::format("{}: begins at t = {:.10g} s, where the window before it ends at t = {:.10g} s",
+                            has_flow() ? reader_->path_of(first_ + index).string() : std::string("the run"),
+                            span.begin, t));
+    }
     /// Throws RunError when a flow that was followed ended before the time asked for.
     void require_end(double t) const {
         if (t < scene_.time.end - tolerance)
@@ -285,6 +293,7 @@ void run(const common::StageCommand& command, const common::SceneFile& file, con
         folder.write_geometry(
             geometry_of(simulation, start.packed, placement_digest(scene.placed, scene.surroundings)));
         for (std::int64_t index = folder.next_window(); span; span = flow.receive(++index)) {
+            flow.require_next(index, *span, simulation.time());
             if (span->grid && simulation.water() != nullptr)
                 simulation.water()->set_motion(std::move(*span->grid));
             common::Window window =

@@ -76,6 +76,16 @@ with open(os.path.join(flow, "run.json"), "w") as f:
 r = run(scene(3.0, still, block("sphere", (0, 0, 0)), window=1.2), "--flow", flow, "--follow")
 check.true("a followed flow that ends before the time asked for", r.status == 1 and "the flow ended at t = 2.4 s" in r.message and len(r.windows()) == 2, r.message.strip())
 
+# A flow with a gap in time, though its windows are numbered without one.
+with h5py.File(os.path.join(flow, "window_000001.h5"), "r+") as f:
+    f["/flow/time"][...] = f["/flow/time"][:] + 0.1
+    f.attrs["t_begin"], f.attrs["t_end"] = 1.3, 2.5
+r = run(scene(2.4, still, block("sphere", (0, 0, 0)), window=1.2), "--flow", flow)
+check.true("a flow with a gap in time", r.status == 2 and "window_000001.h5: begins at t = 1.3 s" in r.message and "ends at t = 1.2 s" in r.message and len(r.windows()) == 1, r.message.strip())
+with h5py.File(os.path.join(flow, "window_000001.h5"), "r+") as f:
+    f["/flow/time"][...] = f["/flow/time"][:] - 0.1
+    f.attrs["t_begin"], f.attrs["t_end"] = 1.2, 2.4
+
 # Uniform water that accelerates moves with u = a t: a block as heavy as water goes with it (drag is nought, the force is that
 # of the water it displaces), and a heavy one follows the closed form of (8), (10) and (12) without viscosity.
 # Between two samples of the water, 2 ms apart, the block is up to a 1 ms ahead of it or behind: a drag of 6e-6 m/s2, over 2 s 1.2e-5 m/s.
