@@ -3,6 +3,7 @@
 #include <gsl/gsl_errno.h>
 
 #include <optional>
+#include <utility>
 
 #include "common/errors.hpp"
 #include "common/parallel.hpp"
@@ -31,11 +32,13 @@ void refuse_without_earlier_run(const common::StageCommand& command, const commo
 }
 
 /// What stands for the water of a flow means nothing beside one.
-void refuse_beside_a_flow(const common::StageCommand& command, const common::SceneFile& file) {
+void refuse_beside_a_flow(const common::StageCommand& command, const common::SceneFile& file,
+                          const dem::UniformWater& water) {
     if (command.upstream.empty()) return;
     const common::Section dem = file.section("dem");
-    for (const char* key : {"current", "current_acceleration"})
-        if (dem.has(key)) dem.problem(key, "stands for the water where there is no --flow");
+    for (const auto& [key, value] :
+         {std::pair{"current", water.velocity}, {"current_acceleration", water.acceleration}})
+        if (!value.isZero(0)) dem.problem(key, "stands for the water where there is no --flow");
     if (dem.boolean("dry", "no water at all", false))
         dem.problem("dry", "--flow brings water: it moves nothing where all is dry");
 }
@@ -65,7 +68,7 @@ int main(int argc, char** argv) {
         }
         const dem::Scene scene = dem::read_scene(file, layout ? &*layout : nullptr);
         refuse_without_earlier_run(command, file, layout ? &*layout : nullptr);
-        refuse_beside_a_flow(command, file);
+        refuse_beside_a_flow(command, file, scene.uniform_water);
         file.finish();
         if (layout) layout->finish();
         if (command.verb != Verb::check && !command.resume) dem::require_stable_step(file, scene);

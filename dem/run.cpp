@@ -231,6 +231,7 @@ void pack(const common::StageCommand& command, const common::SceneFile& file, co
         Snapshot snapshot =
             take_snapshot(*simulation, packed, placement_digest(scene.placed, scene.surroundings));
         snapshot.is_packing = true;
+        // Twice: only a step that stays past its limit is a mistake, and settled blocks stay as they are.
         report.look(*simulation);
         report.look(*simulation);
         folder.publish(output.take(0, *simulation), to_data_file(snapshot));

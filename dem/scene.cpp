@@ -127,8 +127,10 @@ void read_water(const Section& dem, Scene& scene, bool& dry) {
     scene.uniform_water.acceleration =
         read_vector(dem, "current_acceleration", "m/s2",
                     "of that water: it moves with current + current_acceleration t", Vector::Zero());
-    for (const char* key : {"current", "current_acceleration"})
-        if (dry && dem.has(key)) dem.problem(key, "dem.dry is true: there is no water to flow");
+    const UniformWater& water = scene.uniform_water;
+    for (const auto& [key, value] :
+         {std::pair{"current", water.velocity}, {"current_acceleration", water.acceleration}})
+        if (dry && !value.isZero(0)) dem.problem(key, "dem.dry is true: there is no water to flow");
     scene.uniform_water.element_diameter = scene.element.diameter;
     scene.still_outside =
         dem.choice("flow_outside", "water outside the flow grid", {"error", "still"}, "error") == "still";

@@ -455,12 +455,14 @@ void read_blocks(const SceneFile& file, Scene& scene) {
     const Section packing = dem.table("packing");
     scene.packing.settle = packing.choice("method", "how blocks come to rest before the run",
                                           {"settle", "none"}, armour ? "settle" : "none") == "settle";
-    // What is enough for the paper's elements; others fall by the root of their size.
+    // What is enough for the paper's elements; others fall by the root of their size. In three digits, to
+    // read well.
+    const auto rounded = [](double value) { return std::stod(fmt::format("{:.3g}", value)); };
     const double slower = scene.time_scale, length = scene.element.diameter / 0.008;
     scene.packing.longest =
-        packing.number("longest", "s", "packing gives up after", Range::positive(), 5.0 * slower);
+        packing.number("longest", "s", "packing gives up after", Range::positive(), rounded(5.0 * slower));
     scene.packing.speed = packing.number("speed", "m/s", "slower blocks have settled", Range::positive(),
-                                         1e-3 * length / slower);
+                                         rounded(1e-3 * length / slower));
     scene.packing.look_interval *= slower;
     if (!file.has_problems()) PlacementJudge(dem, scene, mound, placed_singly).judge();
 }

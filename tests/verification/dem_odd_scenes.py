@@ -194,6 +194,13 @@ check.true("a step past the limit of large blocks is refused before anything run
 r = run(scaled(size, f"time_step = {1e-4 * np.sqrt(size)}"), verb="check")
 check.true("and check tells of contacts and of an error as at the paper's size", "0 contacts" not in r.message and "the contacts set" in r.message and "balance about 0.01 " in r.message, r.message.strip()[-600:])
 
+# What `check --all` prints is the scene: dry, or to be run in a flow, where the key of a current stands printed at nought.
+for what, text, arguments in (("dry", scene(0.05, "dry = true\n" + FLOOR, block("cube27", (0, 0, 0.02))), ()),
+                              ("in a flow", scene(2.4, still, block("sphere", (0, 0, 0)), window=1.2), ("--flow", flow))):
+    printed = run(text, "--all", verb="check").message
+    r, again_run = run(text, *arguments), run(printed, *arguments)
+    check.true(f"check --all of a scene {what} is that scene", again_run.status == 0 and np.array_equal(again_run.series("/blocks/position"), r.series("/blocks/position")), again_run.message.strip())
+
 # The forecast counts the steps of the run: from where the flow begins.
 r = run(scene(2.4, still, block("sphere", (0, 0, 0)), window=1.2), "--flow", flow, verb="check")
 begun = run(scene(2.4, still, block("sphere", (0, 0, 0)), window=1.2) + "[dem.restart]\nclock = 1.2\n", "--flow", flow, "--from", os.path.join(halfway.folder, "state.h5"), verb="check")
