@@ -23,6 +23,7 @@ FluidLoads::FluidLoads(const Blocks& blocks, FluidProperties properties,
     is_awake_.assign(blocks.size(), 1);
     resting_.resize(blocks.size());
     loads_.resize(blocks.size());
+    in_motion_.resize(blocks.size());
     applied_.assign(blocks.size(), {Vector::Zero(), Vector::Zero()});
 }
 
@@ -45,6 +46,7 @@ void FluidLoads::sample_block(Blocks& blocks, std::size_t i, double t) {
                         "dem.flow_outside = \"still\"",
                         t, i + 1, outside.what()));
     }
+    in_motion_[i] = FluidLoadInMotion(loads_[i]);
     if (waves_reach_blocks < 0 && loads_[i].water_speed > wave_speed) waves_reach_blocks = t;
     const double ratio = mass_ratio(blocks.shape_of(i), loads_[i].wet, properties_);
     if (ratio != blocks.mass_ratio[i]) work += blocks.set_mass_ratio(i, ratio);
@@ -104,7 +106,7 @@ void FluidLoads::awake_changed(const std::vector<std::uint8_t>& is_awake) {
 void FluidLoads::add(Blocks& blocks, std::span<const std::uint32_t> wanted, const std::vector<std::uint8_t>&,
                      double) {
     for (const auto i : wanted) {
-        applied_[i] = loads_[i].at(blocks.velocity[i], blocks.angular_velocity[i]);
+        applied_[i] = in_motion_[i].at(blocks.velocity[i], blocks.angular_velocity[i]);
         blocks.force[i] += applied_[i].force;
         blocks.torque[i] += applied_[i].torque;
     }
@@ -120,7 +122,7 @@ void FluidLoads::account(const Blocks& blocks, std::span<const std::uint32_t> so
 }
 
 void FluidLoads::fetch(std::size_t first, std::size_t count) const {
-    fetch_ahead(loads_, first, count);
+    fetch_ahead(in_motion_, first, count);
     fetch_ahead(applied_, first, count);
 }
 

@@ -78,8 +78,9 @@ class FluidLoads final : public Load {
     std::vector<std::uint8_t> is_awake_;
     std::vector<Resting> resting_;
     std::vector<FluidLoad> loads_;
-    std::vector<FluidLoad::Wrench> applied_;  // in the last step
-    double ahead_ = 0;                        // half the time a sample is held, s
+    std::vector<FluidLoadInMotion> in_motion_;        // the same for steps
+    std::vector<FluidLoadInMotion::Wrench> applied_;  // in the last step
+    double ahead_ = 0;                                // half the time a sample is held, s
 };
 
 /// Wires with an end that may move.

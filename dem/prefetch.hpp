@@ -15,8 +15,9 @@ void fetch_ahead(const Array& array, std::size_t first, std::size_t count) {
     const std::size_t end = std::min(first + count, array.size());
     if (first >= end) return;
     const auto* bytes = reinterpret_cast<const char*>(array.data() + first);
-    for (std::size_t byte = 0; byte < (end - first) * sizeof(array[0]); byte += line)
-        __builtin_prefetch(bytes + byte);
+    const std::size_t size = (end - first) * sizeof(array[0]);
+    for (std::size_t byte = 0; byte < size; byte += line) __builtin_prefetch(bytes + byte);
+    __builtin_prefetch(bytes + size - 1);  // the elements need not begin where a line does
 }
 
 }  // namespace dem

@@ -182,6 +182,20 @@ template FluidLoad sample_fluid_load(const Blocks&, std::size_t, const UniformWa
 template FluidLoad sample_fluid_load(const Blocks&, std::size_t, const FlowGrid&, const FluidProperties&,
                                      double);
 
+FluidLoadInMotion::FluidLoadInMotion(const FluidLoad& load) : force_(load.force), torque_(load.torque) {
+    for (int row = 0, k = 0; row < 3; ++row)
+        for (int column = row; column < 3; ++column, ++k) {
+            drag_[k] = static_cast<float>(load.drag_slope(row, column));
+            spin_[k] = static_cast<float>(load.spin_slope(row, column));
+        }
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+            coupling_[3 * row + column] = static_cast<float>(load.coupling(row, column));
+    const Wrench moving = at(load.velocity, load.spin);
+    force_ += load.force - moving.force;
+    torque_ += load.torque - moving.torque;
+}
+
 double largest_load_change(const Shape& shape, const FlowGrid::Change& change,
                            const FluidProperties& properties) {
     const SphereFactors factors = factors_of(shape, properties);

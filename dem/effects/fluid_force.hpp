@@ -29,16 +29,41 @@ struct FluidLoad {
     Vector spin{0, 0, 0};                    ///< rad/s
     double wet = 0;                          ///< mean over the block's spheres
     double water_speed = 0;                  ///< mean over the block's wet spheres, m/s
+};
 
-    /// Force and torque at the present velocity and spin.
+/// The same as a step reads it: F = F_0 - A v - B^T w, T = T_0 - B v - C w. Thousands of blocks do not stay
+/// in the near caches, so the slopes are float, A and C by their upper halves: 136 bytes a block. At the
+/// motion that was sampled force and torque are the sampled ones to the last digits of double, for F_0 and
+/// T_0 are found with the rounded slopes.
+class FluidLoadInMotion {
+ public:
+    FluidLoadInMotion() = default;
+    explicit FluidLoadInMotion(const FluidLoad& load);
+
     struct Wrench {
         Vector force, torque;
     };
-    Wrench at(const Vector& present_velocity, const Vector& present_spin) const {
-        const Vector faster = present_velocity - velocity, turning = present_spin - spin;
-        return {force - drag_slope * faster - coupling.transpose() * turning,
-                torque - coupling * faster - spin_slope * turning};
+    Wrench at(const Vector& velocity, const Vector& spin) const {
+        const auto times = [](const float(&half)[6], const Vector& v) {
+            return Vector(half[0] * v.x() + half[1] * v.y() + half[2] * v.z(),
+                          half[1] * v.x() + half[3] * v.y() + half[4] * v.z(),
+                          half[2] * v.x() + half[4] * v.y() + half[5] * v.z());
+        };
+        const auto& b = coupling_;
+        return {force_ - times(drag_, velocity) -
+                    Vector(b[0] * spin.x() + b[3] * spin.y() + b[6] * spin.z(),
+                           b[1] * spin.x() + b[4] * spin.y() + b[7] * spin.z(),
+                           b[2] * spin.x() + b[5] * spin.y() + b[8] * spin.z()),
+                torque_ - times(spin_, spin) -
+                    Vector(b[0] * velocity.x() + b[1] * velocity.y() + b[2] * velocity.z(),
+                           b[3] * velocity.x() + b[4] * velocity.y() + b[5] * velocity.z(),
+                           b[6] * velocity.x() + b[7] * velocity.y() + b[8] * velocity.z())};
     }
+
+ private:
+    Vector force_{0, 0, 0}, torque_{0, 0, 0};  // at rest
+    float drag_[6] = {}, spin_[6] = {};        // xx xy xz yy yz zz
+    float coupling_[9] = {};                   // row by row
 };
 
 struct FluidProperties {
