@@ -17,6 +17,19 @@ bool is_uniform(const std::vector<double>& axis) {
 
 }  // namespace
 
+void UniformWater::sample(const std::vector<double>& x, const std::vector<double>& z,
+                          WaterSamples& samples) const {
+    for (std::size_t k = 0; k < x.size(); ++k) samples.wet[k] = wet_at(z[k]);
+    const Vector now = velocity + time * acceleration;
+    const auto fill = [](Column& column, const Vector& value) {
+        std::fill(column.x.begin(), column.x.end(), value.x());
+        std::fill(column.y.begin(), column.y.end(), value.y());
+        std::fill(column.z.begin(), column.z.end(), value.z());
+    };
+    fill(samples.velocity, now);
+    fill(samples.acceleration, acceleration);
+}
+
 FlowGrid::FlowGrid(FlowHistory history, bool still_outside)
     : history_(std::move(history)), still_outside_(still_outside) {
     if (history_.x.size() < 2 || history_.z.size() < 2 || !is_uniform(history_.x) || !is_uniform(history_.z))
@@ -27,7 +40,8 @@ FlowGrid::FlowGrid(FlowHistory history, bool still_outside)
     origin_z_ = history_.z.front();
     per_spacing_x_ = static_cast<double>(count_x_ - 1) / (history_.x.back() - origin_x_);
     per_spacing_z_ = static_cast<double>(count_z_ - 1) / (history_.z.back() - origin_z_);
-    now_.resize(count_x_ * count_z_ * fields);
+    values_ = count_x_ * count_z_ * fields;
+    now_.resize(values_ + padded_fields - fields);
     set_time(history_.time.front());
 }
 
@@ -38,34 +52,55 @@ void FlowGrid::set_time(double t) {
     const std::size_t next = std::min(k + 1, time.size() - 1);
     interval_ = k;
     const double share = next > k ? std::clamp((t - time[k]) / (time[next] - time[k]), 0.0, 1.0) : 0.0;
-    const float *before = history_.values.data() + k * now_.size(),
-                *after = history_.values.data() + next * now_.size();
-    for (std::size_t i = 0; i < now_.size(); ++i)
+    const float *before = history_.values.data() + k * values_,
+                *after = history_.values.data() + next * values_;
+    for (std::size_t i = 0; i < values_; ++i)
         now_[i] = (1 - share) * static_cast<double>(before[i]) + share * static_cast<double>(after[i]);
 }
 
-WaterSample FlowGrid::at(const Vector& point) const {
-    const double across = (point.x() - origin_x_) * per_spacing_x_,
-                 up = (point.z() - origin_z_) * per_spacing_z_;
+inline void FlowGrid::interpolate(double x, double z, double (&value)[padded_fields]) const {
+    const double across = (x - origin_x_) * per_spacing_x_, up = (z - origin_z_) * per_spacing_z_;
     if (!(across >= 0 && up >= 0 && across <= static_cast<double>(count_x_ - 1) &&
           up <= static_cast<double>(count_z_ - 1))) {
-        if (still_outside_) return {Vector(0, 0, 0), Vector(0, 0, 0), point.z() < 0 ? 1.0 : 0.0};
-        throw std::out_of_range(
-            fmt::format("x = {:.4f} m, z = {:.4f} m is outside the flow grid (x {:.4f} to {:.4f} m, z {:.4f} "
-                        "to {:.4f} m)",
-                        point.x(), point.z(), history_.x.front(), history_.x.back(), history_.z.front(),
-                        history_.z.back()));
+        if (!still_outside_)
+            throw std::out_of_range(fmt::format(
+                "x = {:.4f} m, z = {:.4f} m is outside the flow grid (x {:.4f} to {:.4f} m, z "
+                "{:.4f} to {:.4f} m)",
+                x, z, history_.x.front(), history_.x.back(), history_.z.front(), history_.z.back()));
+        std::fill(std::begin(value), std::end(value), 0.0);
+        value[4] = z < 0 ? 1.0 : 0.0;
+        return;
     }
     const std::size_t i = std::min(static_cast<std::size_t>(across), count_x_ - 2);
     const std::size_t j = std::min(static_cast<std::size_t>(up), count_z_ - 2);
     const double right = across - static_cast<double>(i), above = up - static_cast<double>(j);
     const double* low = now_.data() + (j * count_x_ + i) * fields;
     const double* high = low + count_x_ * fields;
-    double value[fields];
-    for (std::size_t f = 0; f < fields; ++f)
+    for (std::size_t f = 0; f < padded_fields; ++f)
         value[f] = (1 - above) * ((1 - right) * low[f] + right * low[f + fields]) +
                    above * ((1 - right) * high[f] + right * high[f + fields]);
+}
+
+WaterSample FlowGrid::at(const Vector& point) const {
+    double value[padded_fields];
+    interpolate(point.x(), point.z(), value);
     return {Vector(value[0], 0, value[1]), Vector(value[2], 0, value[3]), value[4]};
+}
+
+void FlowGrid::sample(const std::vector<double>& x, const std::vector<double>& z,
+                      WaterSamples& samples) const {
+    auto& [velocity, acceleration, wet] = samples;
+    std::fill(velocity.y.begin(), velocity.y.end(), 0.0);
+    std::fill(acceleration.y.begin(), acceleration.y.end(), 0.0);
+    for (std::size_t k = 0; k < x.size(); ++k) {
+        double value[padded_fields];
+        interpolate(x[k], z[k], value);
+        velocity.x[k] = value[0];
+        velocity.z[k] = value[1];
+        acceleration.x[k] = value[2];
+        acceleration.z[k] = value[3];
+        wet[k] = value[4];
+    }
 }
 
 std::optional<FlowGrid::Points> FlowGrid::points_around(double x_low, double x_high, double z_low,
@@ -95,7 +130,7 @@ FlowGrid::Change FlowGrid::largest_change(const Points& points, const std::vecto
     // Linear in time: between now and the end of the interval nothing is farther from the earlier values than
     // at one of the two.
     const std::size_t next = std::min(interval_ + 1, history_.time.size() - 1);
-    const float* then = history_.values.data() + next * now_.size();
+    const float* then = history_.values.data() + next * values_;
     const auto squared = [](double a, double b) { return a * a + b * b; };
     double velocity = 0, acceleration = 0, speed = 0;
     bool wet = false;

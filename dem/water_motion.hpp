@@ -19,6 +19,28 @@ struct WaterSample {
     double wet;           ///< 0 (air) .. 1 (water)
 };
 
+/// A vector at some places, an array for each component.
+struct Column {
+    std::vector<double> x, y, z;
+
+    void resize(std::size_t count) {
+        for (auto* part : {&x, &y, &z}) part->resize(count);
+    }
+};
+
+/// Water at some places.
+struct WaterSamples {
+    Column velocity;          ///< u, m/s
+    Column acceleration;      ///< Du/Dt, m/s^2
+    std::vector<double> wet;  ///< 0 (air) .. 1 (water)
+
+    void resize(std::size_t count) {
+        velocity.resize(count);
+        acceleration.resize(count);
+        wet.resize(count);
+    }
+};
+
 /// Water below z = 0 that moves as one: at rest, or a current given by the scene. What is uniform has
 /// Du/Dt = du/dt: u = velocity + acceleration t.
 struct UniformWater {
@@ -32,9 +54,11 @@ struct UniformWater {
     bool is_steady() const { return acceleration.isZero(0); }
 
     WaterSample at(const Vector& point) const {
-        const double wet = surface ? std::clamp(0.5 - point.z() / element_diameter, 0.0, 1.0) : 1.0;
-        return {velocity + time * acceleration, acceleration, wet};
+        return {velocity + time * acceleration, acceleration, wet_at(point.z())};
     }
+    double wet_at(double z) const { return surface ? std::clamp(0.5 - z / element_diameter, 0.0, 1.0) : 1.0; }
+    /// The same at the places (x, z), m.
+    void sample(const std::vector<double>& x, const std::vector<double>& z, WaterSamples& samples) const;
 };
 
 /// Samples of the near field, linear in time and bilinear in space, uniform in y.
@@ -66,6 +90,8 @@ class FlowGrid {
 
     /// Outside the grid: still water below z = 0 where the scene says so; else std::out_of_range.
     WaterSample at(const Vector& point) const;
+    /// The same at the places (x, z), m.
+    void sample(const std::vector<double>& x, const std::vector<double>& z, WaterSamples& samples) const;
 
     /// Grid points from (i, j) to (end_i - 1, end_j - 1): what is interpolated anywhere in a box lies between
     /// their values.
@@ -89,9 +115,14 @@ class FlowGrid {
     std::size_t interval() const { return interval_; }
 
  private:
+    /// A point's fields and what is read beyond them, so that the processor interpolates them as one.
+    static constexpr std::size_t padded_fields = 8;
+    void interpolate(double x, double z, double (&value)[padded_fields]) const;
+
     FlowHistory history_;
     bool still_outside_ = false;
-    std::vector<double> now_;  // (z, x, fields)
+    std::size_t values_ = 0;   // of an instant
+    std::vector<double> now_;  // (z, x, fields), and padding
     double origin_x_ = 0, origin_z_ = 0, per_spacing_x_ = 0, per_spacing_z_ = 0;
     std::size_t count_x_ = 0, count_z_ = 0, interval_ = 0;
 };

@@ -21,31 +21,63 @@ SphereFactors factors_of(const Shape& shape, const FluidProperties& properties) 
             .viscous = 24 * water.viscosity / properties.element.diameter};
 }
 
-/// A vector of every sphere of a block, an array for each component.
-struct Column {
-    std::vector<double> x, y, z;
-
-    void resize(std::size_t count) {
-        for (auto* part : {&x, &y, &z}) part->resize(count);
-    }
-    void set(std::size_t k, const Vector& value) {
-        x[k] = value.x();
-        y[k] = value.y();
-        z[k] = value.z();
-    }
-};
-
 /// The spheres of a block in the water. Sums over them run four spheres at a time.
 struct Spheres {
-    Column arm, relative, about, force;          // arm; u_r; arm x u_r; of the water's motion, then of all
-    std::vector<double> wet, slope, steepening;  // slope s and steepening c: dF/du_r = s + c u_r u_r^T
+    Column arm, relative, about, force;     // arm; u_r; arm x u_r; of the water's motion and buoyancy
+    std::vector<double> slope, steepening;  // slope s and steepening c: dF/du_r = s + c u_r u_r^T
+    std::vector<double> x, z;               // where they are, m
+    WaterSamples water;
 
     void resize(std::size_t count) {
         for (auto* column : {&arm, &relative, &about, &force}) column->resize(count);
-        for (auto* part : {&wet, &slope, &steepening}) part->resize(count);
+        for (auto* part : {&slope, &steepening, &x, &z}) part->resize(count);
+        water.resize(count);
     }
-    std::size_t size() const { return wet.size(); }
+    std::size_t size() const { return x.size(); }
 };
+
+/// Where the spheres are, with `turn` and `centre` of the block.
+void find_places(const std::vector<Vector>& in_body, const Rotation& turn, const Vector& centre,
+                 Spheres& spheres) {
+    Column& arm = spheres.arm;
+    const double xx = turn(0, 0), xy = turn(0, 1), xz = turn(0, 2), yx = turn(1, 0), yy = turn(1, 1),
+                 yz = turn(1, 2), zx = turn(2, 0), zy = turn(2, 1), zz = turn(2, 2);
+    const double centre_x = centre.x(), centre_z = centre.z();
+    const std::size_t count = spheres.size();
+    for (std::size_t k = 0; k < count; ++k) {
+        const double x = in_body[k].x(), y = in_body[k].y(), z = in_body[k].z();
+        arm.x[k] = xx * x + xy * y + xz * z;
+        arm.y[k] = yx * x + yy * y + yz * z;
+        arm.z[k] = zx * x + zy * y + zz * z;
+        spheres.x[k] = centre_x + arm.x[k];
+        spheres.z[k] = centre_z + arm.z[k];
+    }
+}
+
+/// Velocity of the water relative to each sphere, and the forces of its acceleration and weight, eqs. (10)
+/// and (11).
+void meet_water(Spheres& spheres, double inertia, const Vector& buoyancy, FluidLoad& load) {
+    auto& [arm, relative, about, force, slope, steepening, x, z, water] = spheres;
+    const double vx = load.velocity.x(), vy = load.velocity.y(), vz = load.velocity.z();
+    const double wx = load.spin.x(), wy = load.spin.y(), wz = load.spin.z();
+    const double bx = buoyancy.x(), by = buoyancy.y(), bz = buoyancy.z();
+    double wet = 0, speed = 0;
+    const std::size_t count = spheres.size();
+#pragma omp simd reduction(+ : wet, speed)
+    for (std::size_t k = 0; k < count; ++k) {
+        const double ux = water.velocity.x[k], uy = water.velocity.y[k], uz = water.velocity.z[k];
+        relative.x[k] = ux - vx - (wy * arm.z[k] - wz * arm.y[k]);
+        relative.y[k] = uy - vy - (wz * arm.x[k] - wx * arm.z[k]);
+        relative.z[k] = uz - vz - (wx * arm.y[k] - wy * arm.x[k]);
+        force.x[k] = water.wet[k] * (inertia * water.acceleration.x[k] + bx);
+        force.y[k] = water.wet[k] * (inertia * water.acceleration.y[k] + by);
+        force.z[k] = water.wet[k] * (inertia * water.acceleration.z[k] + bz);
+        wet += water.wet[k];
+        speed += water.wet[k] * std::sqrt(ux * ux + uy * uy + uz * uz);
+    }
+    load.wet = wet;
+    load.water_speed = speed;
+}
 
 /// Sum of weight * a * a^T.
 Rotation weighted_squares(const std::vector<double>& weight, const Column& a) {
@@ -91,7 +123,8 @@ Rotation weighted_products(const std::vector<double>& weight, const Column& a, c
 /// Drag of each sphere, eqs. (10) and (12), its slopes, and the sums of force and torque.
 void add_drag(Spheres& spheres, double drag, double drag_coefficient, double viscous, FluidLoad& load) {
     double fx = 0, fy = 0, fz = 0, tx = 0, ty = 0, tz = 0;
-    auto& [arm, relative, about, force, wet, slope, steepening] = spheres;
+    auto& [arm, relative, about, force, slope, steepening, x_places, z_places, water] = spheres;
+    const std::vector<double>& wet = water.wet;
     const std::size_t count = spheres.size();
 #pragma omp simd reduction(+ : fx, fy, fz, tx, ty, tz)
     for (std::size_t k = 0; k < count; ++k) {
@@ -159,16 +192,9 @@ FluidLoad sample_fluid_load(const Blocks& blocks, std::size_t block, const Motio
     thread_local Spheres spheres;
     const std::size_t count = shape.spheres.size();
     spheres.resize(count);
-    for (std::size_t k = 0; k < count; ++k) {
-        const Vector arm = turn * shape.spheres[k];
-        const WaterSample sample = motion.at(centre + arm);
-        spheres.arm.set(k, arm);
-        spheres.relative.set(k, sample.velocity - velocity - spin.cross(arm));
-        spheres.force.set(k, sample.wet * (inertia * sample.acceleration + buoyancy));  // (10), (11)
-        spheres.wet[k] = sample.wet;
-        load.wet += sample.wet;
-        load.water_speed += sample.wet * sample.velocity.norm();
-    }
+    find_places(shape.spheres, turn, centre, spheres);
+    motion.sample(spheres.x, spheres.z, spheres.water);
+    meet_water(spheres, inertia, buoyancy, load);
     if (load.wet <= 0) return load;
     add_drag(spheres, drag, water.drag_coefficient, viscous, load);
     add_slopes(spheres, load);
