@@ -155,12 +155,20 @@ Snapshot snapshot_from_window(const std::filesystem::path& from, const Scene& sc
     const auto& rest = geometry.at("/wires/rest_length").doubles();
     const auto& stiffness = geometry.at("/wires/stiffness").doubles();
     const auto& image = geometry.at("/wires/image_offset").doubles();
+    std::vector<std::uint8_t> intact;
+    for (const double flag : window.at("/wires/intact").as_double()) intact.push_back(flag > 0.5);
+    if (intact.size() != times.size() * rest.size())
+        throw common::InputError(fmt::format("{}: holds {} wires, geometry.h5 {}", from.string(),
+                                             intact.size() / times.size(), rest.size()));
     for (std::size_t w = 0; w < rest.size(); ++w) {
         snapshot.wires.add(static_cast<std::uint32_t>(ends[4 * w]),
                            static_cast<std::uint32_t>(ends[4 * w + 1]),
                            static_cast<std::uint32_t>(ends[4 * w + 2]),
                            static_cast<std::uint32_t>(ends[4 * w + 3]), rest[w], stiffness[w], image[w]);
-        snapshot.wires.is_intact[w] = window.at("/wires/intact").as_double()[sample * rest.size() + w] > 0.5;
+        snapshot.wires.is_intact[w] = intact[sample * rest.size() + w];
+        // A window tells at which of its samples a wire was first found broken, not when it broke.
+        for (std::size_t k = sample + 1; k-- > 0 && !intact[k * rest.size() + w];)
+            snapshot.wires.broken_at[w] = times[k];
     }
     snapshot.memory.time = snapshot.t;
     snapshot.memory.waves_reach_blocks = -1;

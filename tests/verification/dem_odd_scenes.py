@@ -60,6 +60,15 @@ for ends in ("1, 2", "2, 1"):
     r = run(scene(0.2, "dry = true\ngravity = [0.0, 0.0, 0.0]", PAIR + LINK.format(ends)), "--from", os.path.join(first.folder, "state.h5"))
     check.true(f"and stays broken as [{ends}]", r.status == 0 and r.figure("wires.broken") == 1, r.message.strip())
 
+# When it broke is kept as well: exactly from a state, from a window to the sample at which it was first found broken.
+with h5py.File(os.path.join(first.folder, "state.h5")) as f:
+    broke = f["/wires/broken_at"][0]
+    check.true("a state tells when", 0 < broke < 0.1, f"{broke} s")
+for name, latest in (("state.h5", broke), ("window_000000.h5", broke + 0.01)):
+    r = run(scene(0.2, "dry = true\ngravity = [0.0, 0.0, 0.0]", PAIR + LINK.format("1, 2")), "--from", os.path.join(first.folder, name))
+    with h5py.File(os.path.join(r.folder, "state.h5")) as f:
+        check.true(f"and a run that goes on from {name} when it broke", broke <= f["/wires/broken_at"][0] <= latest, f"{f['/wires/broken_at'][0]} s")
+
 # Window ends carry the rounding of the clock that wrote them: a start at such an instant is in the window after it.
 flow = tempfile.mkdtemp(prefix="tsunagi_flow_")
 write_flow(flow, lambda t, X, Z: (0.1, 0.0, 0.0, 0.0, 1.0), [-1.0, 1.0], [-1.0, 1.0], 0.0, 2.4, 1.2, 0.1)
