@@ -145,10 +145,17 @@ int run(const common::StageCommand& command, const common::SceneFile& file, cons
     record.write_running();
     try {
         for (std::int64_t index = folder.next_window(); index < clock.window_count(); ++index) {
-            common::Window window = simulation.advance_window(clock, index, [&](double time) {
-                progress.update(time, fmt::format("{} particles", simulation.field().particles.fluid));
-                common::check_for_interrupt();
-            });
+            common::Window window = simulation.advance_window(
+                clock, index,
+                [&](double time) {
+                    progress.update(time, fmt::format("{} particles", simulation.field().particles.fluid));
+                    common::check_for_interrupt();
+                },
+                [&](const std::string& message) {
+                    progress.say(message);
+                    simulation.describe(record);
+                    record.write_running();
+                });
             folder.publish(std::move(window), simulation.state());
             record.add_window();
             simulation.describe(record);

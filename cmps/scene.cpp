@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cmps/linear_waves.hpp"
 #include "cmps/scene_checks.hpp"
 #include "cmps/scene_geometry.hpp"
 #include "cmps/time_table.hpp"
@@ -236,18 +237,6 @@ std::optional<TimeTable> read_table(const Section& section, const char* key,
     }
 }
 
-/// Airy's phase speed, m/s, by Newton's method on omega^2 = g k tanh(k h).
-double phase_speed(double period, double depth) {
-    constexpr double gravity = 9.81, two_pi = 6.283185307179586;
-    const double omega = two_pi / period;
-    double k = omega / std::sqrt(gravity * depth) + omega * omega / gravity;  // above the root
-    for (int i = 0; i < 50; ++i) {
-        const double t = std::tanh(k * depth);
-        k -= (gravity * k * t - omega * omega) / (gravity * t + gravity * k * depth * (1 - t * t));
-    }
-    return omega / k;
-}
-
 /// What [waves] says of the waves that arrive in windows: rules and the boundary need their height and
 /// period.
 void read_waves(const common::SceneFile& file, Scene& scene, double depth) {
@@ -261,8 +250,8 @@ void read_waves(const common::SceneFile& file, Scene& scene, double depth) {
     if (kind == "series" || kind == "none") return;
     scene.wave_height = waves.number("height", "m", "wave height", Range::positive());
     if (kind == "solitary") return;
-    const double period = waves.number("period", "s", "wave period", Range::positive());
-    scene.celerity = phase_speed(period, depth);
+    scene.wave_period = waves.number("period", "s", "wave period", Range::positive());
+    scene.celerity = phase_speed(scene.wave_period, depth);
 }
 
 void read_drive(const Section& section, Scene& scene, double depth) {

@@ -50,6 +50,7 @@ struct Scene {
     double absorption = 0;           ///< share of what comes back that the wall takes in
     double celerity = 0;             ///< of the waves at the wall, m/s
     double wave_height = 0;          ///< that [waves] gives, m; 0: none
+    double wave_period = 0;          ///< that [waves] gives, s; 0: none
     std::optional<double> start;     ///< s; absent: at arrival of the waves
     double arrival_threshold = 0;    ///< m
     double viscosity = 0;            ///< kinematic, m2/s
@@ -67,6 +68,8 @@ struct Scene {
 
     // effects, decided
     std::vector<common::EffectRecord> effects;
+    bool turbulence_is_automatic = false;
+    bool crest_is_out_of_reach = false;  ///< said so by "auto", which therefore left the basin out
     bool has_effect(const std::string& name) const;
 };
 

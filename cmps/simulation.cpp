@@ -26,6 +26,7 @@ Simulation::Simulation(const Scene& scene, WaveField* waves, double start)
     field_->settle(settling_sweeps, highest_water(scene_));
     if (scene_.has_flow) field_->path_average.emplace(scene_.flow_smoothing, field_->particles);
     compose_effects();
+    watch_.emplace(scene_, solid_);
     balance_.emplace(scene_, solid_, *field_);
     output_.emplace(scene_, solid_, field_->particles);
 }
@@ -49,8 +50,13 @@ void Simulation::compose_effects() {
     }
     if (!scene_.gravity_file.empty()) add_effect<GravityHistory>(TimeTable(scene_.gravity_file, 3));
     if (scene_.has_effect("viscosity")) add_effect<Viscosity>(scene_.viscosity);
-    if (scene_.has_effect("turbulence")) add_effect<Turbulence>(scene_.smagorinsky);
-    if (scene_.has_effect("overtopping_basin"))
+    for (const char* const effect : {"turbulence", "overtopping_basin"})
+        if (scene_.has_effect(effect)) switch_on(effect);
+}
+
+void Simulation::switch_on(const std::string& effect) {
+    if (effect == "turbulence") add_effect<Turbulence>(scene_.smagorinsky);
+    if (effect == "overtopping_basin")
         basin_ = add_effect<OvertoppingBasin>(rear_of_structure(scene_, solid_));
 }
 
@@ -73,7 +79,8 @@ void Simulation::add_offshore_boundary() {
 }
 
 common::Window Simulation::advance_window(const common::WindowClock& clock, std::int64_t index,
-                                          const std::function<void(double)>& on_step) {
+                                          const std::function<void(double)>& on_step,
+                                          const std::function<void(const std::string&)>& say) {
     const double end = clock.end_of(index);
     output_->begin(clock, index);
     while (!output_->is_complete()) {
@@ -85,6 +92,11 @@ common::Window Simulation::advance_window(const common::WindowClock& clock, std:
         }
         output_->before_step(time_, next, *field_, overtopped());
         if (field_->counts.steps % steps_between_stocks == 0) take_stock();
+        if (field_->counts.steps % EffectWatch::interval == 0)
+            for (const EffectChange& change : watch_->look(*field_, time_, wall_position())) {
+                switch_on(change.effect);
+                say(change.message);
+            }
         field_->advance(time_, next - time_);
         output_->add_step(next - time_, *field_);
         time_ = next;
@@ -95,7 +107,7 @@ common::Window Simulation::advance_window(const common::WindowClock& clock, std:
 }
 
 void Simulation::take_stock() {
-    balance_->update(*field_, wall_ ? wall_->position() : scene_.offshore);
+    balance_->update(*field_, wall_position());
     balance_->judge(*field_, time_, containment_->returned());
 }
 
@@ -106,11 +118,14 @@ common::DataFile Simulation::save_state() const {
     if (const auto means = output_->state(); !means.empty())
         state.datasets["/pressures"] = common::real64("-", {means.size()}, means);
     const auto balance = balance_->state();
+    watch_->save(state);
     state.datasets["/balance"] = common::real64("-", {balance.size()}, balance);
     return state;
 }
 
 void Simulation::restore(const common::DataFile& state) {
+    watch_->restore(state);
+    for (const std::string& effect : watch_->switched_on()) switch_on(effect);
     cmps::restore(*field_, state);
     time_ = state.at("/run").doubles().at(1);
     steps_before_ = field_->counts.steps;
@@ -121,6 +136,7 @@ void Simulation::restore(const common::DataFile& state) {
 void Simulation::describe(common::RunRecord& record) const {
     const NearField& field = *field_;
     const std::size_t waiting = overflow_ ? overflow_->waiting() : 0;
+    watch_->describe(record);
     balance_->describe(record, field, overtopped() + waiting);
     const double count = static_cast<double>(field.particles.size()),
                  steps = static_cast<double>(field.counts.steps);

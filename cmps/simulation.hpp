@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "cmps/balance.hpp"
+#include "cmps/effect_watch.hpp"
 #include "cmps/effects/absorption.hpp"
 #include "cmps/effects/containment.hpp"
 #include "cmps/effects/moving_wall.hpp"
@@ -27,9 +28,11 @@ class Simulation {
     Simulation(const Scene& scene, WaveField* waves, double start);
 
     /// Advances to the end of window `index` or just past it, recording what is due. Steps are as long as the
-    /// water allows: windows and samples end within them.
+    /// water allows: windows and samples end within them. `say`: called at once with what the user should
+    /// know.
     common::Window advance_window(const common::WindowClock& clock, std::int64_t index,
-                                  const std::function<void(double)>& on_step);
+                                  const std::function<void(double)>& on_step,
+                                  const std::function<void(const std::string&)>& say);
 
     /// The state before the step that crossed the end of the last window: what the next one goes on from.
     const common::DataFile& state() const { return before_crossing_; }
@@ -44,6 +47,9 @@ class Simulation {
     /// Throws RunError when the run has gone wrong.
     void take_stock();
     void compose_effects();
+    /// An effect that may also be added while running: at the end of the step's effects.
+    void switch_on(const std::string& effect);
+    double wall_position() const { return wall_ ? wall_->position() : scene_.offshore; }
     void add_offshore_boundary();
     template <class Kind, class... Arguments>
     Kind* add_effect(Arguments&&... arguments);
@@ -58,6 +64,7 @@ class Simulation {
     OvertoppingBasin* basin_ = nullptr;
     WallOverflow* overflow_ = nullptr;
     Absorption* absorption_ = nullptr;
+    std::optional<EffectWatch> watch_;
     std::optional<Balance> balance_;
     std::optional<WindowOutput> output_;
     common::DataFile before_crossing_;
