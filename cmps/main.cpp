@@ -1,6 +1,7 @@
 /// cmps: the near field at the structure, with corrected moving particles (2D, free surface).
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -37,9 +38,9 @@ double start_time(const cmps::Scene& scene, cmps::WaveField* waves) {
             "the waves never reach cmps.offshore = {:g} m: |surface elevation| stays below {:g} m",
             scene.offshore, scene.arrival_threshold));
     // On a grid of its own, so that the start, and every step after it, does not depend on the window length.
-    constexpr double grain = 0.5;  // s
-    // Half a second ahead: what comes before the threshold is passed moves water too.
-    constexpr double ahead = 0.5;  // s
+    constexpr double grain = 0.5;  // s: rounds down, and costs no more than that much of still water
+    // Half a second ahead (in 0.4 m of water): what comes before the threshold is passed moves water too.
+    const double ahead = 0.5 * scene.froude_time();
     return std::max(0.0, std::floor((arrival - ahead) / grain) * grain);
 }
 
@@ -48,14 +49,20 @@ struct Upstream {
     common::WindowReader reader;
     cmps::WaveField waves;
 
+    /// How far the wall may come off its place with the waves still known there, m: a breaking wave moves
+    /// water by half a depth each way.
+    static double play(const cmps::Scene& scene) { return 1.25 * scene.settings.depth; }
     /// How far behind the wall the waves are needed, m; all over the near field when it starts in waves.
     static double reach(const cmps::Scene& scene) {
         if (scene.start) return scene.onshore - scene.offshore;
-        return 0.5 + (scene.has_effect("relaxation_zone") ? scene.relaxation_length : 0.0);
+        double ahead = scene.has_effect("relaxation_zone") ? scene.relaxation_length : 0.0;
+        if (scene.has_effect("absorption")) ahead = std::max(ahead, scene.absorption_reach());
+        if (scene.has_effect("wall_overflow")) ahead = std::max(ahead, scene.overflow_zone());
+        return play(scene) + ahead;
     }
     Upstream(const common::StageCommand& command, const cmps::Scene& scene)
         : reader(command.upstream, "boussinesq", wave_datasets, command.follow),
-          waves(reader, scene.offshore - 0.5, scene.offshore + reach(scene), scene.time.end) {
+          waves(reader, scene.offshore - play(scene), scene.offshore + reach(scene), scene.time.end) {
         waves.check_depth([&](double x) { return -cmps::bottom_level(scene, x); });
         if (!command.follow && reader.available_until() < scene.time.end - 1e-9)
             throw common::InputError(

@@ -276,11 +276,16 @@ void read_drive(const Section& section, Scene& scene, double depth) {
     scene.relaxation_length = section.number("relaxation_length", "m", "of the zone behind the wall",
                                              Range::positive(), 3.0 * depth);
     scene.relaxation_strength =
-        section.number("relaxation_strength", "1/s", "at the wall", Range::positive(), 2.0);
+        section.number("relaxation_strength", "1/s",
+                       "at the wall; default: 2 in 0.4 m of water, as Froude's law says elsewhere",
+                       Range::positive(), 2.0 / scene.froude_time());
     scene.absorption = section.number("absorption", "-", "share of what comes back that the wall takes in",
                                       Range::between(0, 1), 1.0);
-    scene.return_time = section.number("return_time", "s", "in which the wall comes back to its place",
-                                       Range::positive(), 10.0);
+    scene.return_time =
+        section.number("return_time", "s",
+                       "in which the wall comes back to its place; default: 10 in 0.4 m of water, as "
+                       "Froude's law says elsewhere",
+                       Range::positive(), 10.0 * scene.froude_time());
     scene.arrival_threshold =
         section.number("arrival_threshold", "m", "surface elevation at the wall that counts as arrival",
                        Range::positive(), 0.005 * depth);

@@ -1,6 +1,7 @@
 /// What the scene says to this stage, checked.
 #pragma once
 
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -65,6 +66,13 @@ struct Scene {
 
     /// Face of the moving wall when the near field starts, m.
     double wall_at_start() const { return offshore + piston.start; }
+    /// Reach ahead of the wall where water that passed it is put back, m: 1.5 depths, a good part of a
+    /// trough.
+    double overflow_zone() const { return 1.5 * settings.depth; }
+    /// Reach ahead of the wall over which absorption reads the surface, m.
+    double absorption_reach() const { return 0.5 * settings.depth; }
+    /// Times that were found in 0.4 m of water become, by Froude's law, this many times as long here.
+    double froude_time() const { return std::sqrt(settings.depth / 0.4); }
 
     // effects, decided
     std::vector<common::EffectRecord> effects;

@@ -32,7 +32,9 @@ void add_moving_wall(const Scene& scene, std::vector<BoundaryParticle>& placed) 
 /// How far behind cmps.offshore the moving wall may go, m.
 double farthest_retreat(const Scene& scene) {
     if (scene.drive == Drive::none) return 0.0;
-    const double of_waves = std::max(1.0, 2.0 * scene.settings.depth);  // more than a wave moves water
+    // a breaking wave moves water by half a depth (H / 2 kh, kh = 0.8), the longest before eq. (6)'s wall is
+    // brought back by two and a half
+    const double of_waves = 2.5 * scene.settings.depth;
     return scene.drive == Drive::waves ? of_waves : std::max(0.0, -scene.piston.least);
 }
 
@@ -61,8 +63,8 @@ double bottom_level(const Scene& scene, double x) {
 Solid make_solid(const Scene& scene) {
     const double thick = 6.0 * scene.settings.spacing;  // more than the four layers behind a face
     Solid solid;
-    const double behind =
-        std::max(3.0, farthest_retreat(scene) + 2 * thick);  // bed below the wall wherever it goes
+    // bed below the wall wherever it goes; three times the way of one that waves move
+    const double behind = std::max(7.5 * scene.settings.depth, farthest_retreat(scene) + 2 * thick);
     double x0 = scene.offshore - behind, x1 = scene.onshore, low = 0, high = 1e3;
     if (scene.tank) {
         const auto [a, b, c, d] = *scene.tank;
@@ -84,15 +86,18 @@ Solid make_solid(const Scene& scene) {
         bed.push_back({bed.back()[0], low - 2 * thick});
         bed.push_back({bed.front()[0], low - 2 * thick});
         solid.add(bed, body_bed);
-        solid.add({{x1, low - thick}, {x1 + thick, low - thick}, {x1 + thick, 3.0 - low}, {x1, 3.0 - low}},
+        // faces end above all that out_of_reach() lets water touch, walls above their faces
+        const double face_top = highest_water(scene) + 6.25 * scene.settings.depth + thick - low,
+                     end_top = face_top + 1.25 * scene.settings.depth;
+        solid.add({{x1, low - thick}, {x1 + thick, low - thick}, {x1 + thick, end_top}, {x1, end_top}},
                   body_end_wall);
         if (scene.drive == Drive::none) {
             const double x = scene.offshore;
             x0 = x;
-            solid.add({{x - thick, low - thick}, {x, low - thick}, {x, 3.0 - low}, {x - thick, 3.0 - low}},
+            solid.add({{x - thick, low - thick}, {x, low - thick}, {x, end_top}, {x - thick, end_top}},
                       body_end_wall);
         }
-        low -= thick, high = 2.5 - low;
+        low -= thick, high = face_top;
     }
     for (std::size_t k = 0; k < scene.structure.size(); ++k)
         solid.add(scene.structure[k], static_cast<std::int32_t>(k));

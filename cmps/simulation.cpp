@@ -69,10 +69,10 @@ void Simulation::add_offshore_boundary() {
     });
     if (scene_.has_effect("absorption"))
         absorption_ = add_effect<Absorption>(*waves_, *wall_, solid_, scene_.celerity, scene_.absorption,
-                                             0.5 * scene_.settings.depth);
+                                             scene_.absorption_reach());
     if (scene_.has_effect("wall_overflow"))
         overflow_ = add_effect<WallOverflow>(*field_, *waves_, *wall_, scene_.crest_lowering,
-                                             bottom_level(scene_, scene_.offshore));
+                                             bottom_level(scene_, scene_.offshore), scene_.overflow_zone());
     if (scene_.has_effect("relaxation_zone"))
         add_effect<RelaxationZone>(*waves_, *wall_, scene_.relaxation_length, scene_.relaxation_strength,
                                    scene_.return_time);

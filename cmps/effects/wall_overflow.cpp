@@ -6,15 +6,18 @@
 namespace cmps {
 namespace {
 
-constexpr double zone_length = 0.6;       // m behind the wall, where water is put back
 constexpr std::size_t most_per_step = 2;  // more at once is felt as a shock
 constexpr double nothing = -1e300;
 
 }  // namespace
 
 WallOverflow::WallOverflow(NearField& field, WaveField& waves, const MovingWall& wall, double crest_lowering,
-                           double bottom)
-    : waves_(waves), wall_(wall), crest_lowering_(crest_lowering), bottom_(bottom) {
+                           double bottom, double zone_length)
+    : waves_(waves),
+      wall_(wall),
+      crest_lowering_(crest_lowering),
+      bottom_(bottom),
+      zone_length_(zone_length) {
     const Particles& particles = field.particles;
     const double l0 = field.settings.spacing;
     const double height = waves.still_water_depth(wall.position()) - crest_lowering;
@@ -74,7 +77,7 @@ double WallOverflow::free_level(const Particles& particles, double x, double z, 
 void WallOverflow::put_back(NearField& field) {
     Particles& particles = field.particles;
     const double l0 = field.settings.spacing, x0 = wall_.position() + l0;
-    const auto columns = static_cast<std::size_t>(zone_length / l0);
+    const auto columns = static_cast<std::size_t>(zone_length_ / l0 + 1e-6);  // whole ones stay whole
     column_top_.assign(columns, nothing), column_u_.assign(columns, 0.0), column_w_.assign(columns, 0.0);
     for (std::size_t i = particles.first_fluid(); i < particles.size(); ++i) {
         const double place = (particles.x[i] - x0) / l0;
