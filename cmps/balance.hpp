@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "cmps/effects/work.hpp"
 #include "cmps/near_field.hpp"
 #include "cmps/scene.hpp"
 #include "cmps/solid.hpp"
@@ -15,8 +16,9 @@ class Balance {
  public:
     Balance(const Scene& scene, const Solid& solid, const NearField& field);
 
-    /// Takes stock; `wall`: place of the offshore wall, m.
-    void update(const NearField& field, double wall);
+    /// Takes stock; `wall`: place of the offshore wall, m; `work`: done on the water so far by a piston and
+    /// by gravity from a table.
+    void update(const NearField& field, double wall, const Work& work);
     /// Throws RunError where the last stock says that the run has gone wrong. Bounds are two and more times
     /// what the verification and hard cases reach, and less than half of what known failures do.
     /// `returned`: particles put back out of the solid so far.
@@ -30,12 +32,14 @@ class Balance {
 
  private:
     double energy(const NearField& field) const;
+    double energy_scale() const;
     const Scene& scene_;
     const Solid& solid_;
     std::size_t initial_fluid_ = 0, in_solid_ = 0, outside_ = 0;
     double initial_volume_ = 0, volume_drift_ = 0, largest_volume_drift_ = 0;
     double initial_area_ = 0;  // of the polygons of water; 0: none are given
     double initial_energy_ = 0, energy_gain_ = 0, largest_energy_gain_ = 0;
+    Work work_;  // over energy_scale()
 };
 
 }  // namespace cmps

@@ -100,17 +100,25 @@ int check(const common::StageCommand& command, const common::SceneFile& file, co
     }
     const cmps::Forecast forecast = cmps::make_forecast(scene, start);
     const bool start_is_guess = start < 0 && !scene.start && forecast.start > 0;
-    common::print_check_report(
-        scene.effects, {{"particles", fmt::format("{} in the water, {} in walls; spacing {:.4g} m",
-                                                  forecast.fluid, forecast.boundary, scene.settings.spacing)},
-                        {"time", fmt::format("from {}{:.1f} s to {:g} s", start_is_guess ? "about " : "",
-                                             forecast.start, scene.time.end)},
-                        {"steps", fmt::format("about {:.0f} of {:.2g} s", forecast.steps, forecast.step)},
-                        {"run time", fmt::format("about {} on this machine, one thread",
-                                                 common::run_time_text(forecast.seconds))},
-                        {"memory", fmt::format("about {:.0f} MB", forecast.memory / 1e6)},
-                        {"error", cmps::expected_error_text(scene.settings.depth / scene.settings.spacing,
-                                                            scene.settings.kernel_radius_ratio)}});
+    std::vector<common::ForecastLine> lines = {
+        {"particles", fmt::format("{} in the water, {} in walls; spacing {:.4g} m", forecast.fluid,
+                                  forecast.boundary, scene.settings.spacing)}};
+    if (forecast.start >= scene.time.end) {  // a guess: of waves that are there the run itself is refused
+        lines.push_back(
+            {"time", fmt::format("nothing to simulate: waves reach cmps.offshore = {:g} m at about "
+                                 "{:.1f} s, after time.end = {:g} s; --waves says when exactly",
+                                 scene.offshore, forecast.start, scene.time.end)});
+    } else {
+        lines.push_back({"time", fmt::format("from {}{:.1f} s to {:g} s", start_is_guess ? "about " : "",
+                                             forecast.start, scene.time.end)});
+        lines.push_back({"steps", fmt::format("about {:.0f} of {:.2g} s", forecast.steps, forecast.step)});
+        lines.push_back({"run time", fmt::format("about {} on this machine, one thread",
+                                                 common::run_time_text(forecast.seconds))});
+    }
+    lines.push_back({"memory", fmt::format("about {:.0f} MB", forecast.memory / 1e6)});
+    lines.push_back({"error", cmps::expected_error_text(scene.settings.depth / scene.settings.spacing,
+                                                        scene.settings.kernel_radius_ratio)});
+    common::print_check_report(scene.effects, lines);
     return common::exit_done;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "cmps/effects/gravity_history.hpp"
 #include "cmps/effects/relaxation_zone.hpp"
 #include "cmps/effects/turbulence.hpp"
 #include "cmps/effects/viscosity.hpp"
@@ -48,7 +47,8 @@ void Simulation::compose_effects() {
             return (path->value(1, time + step) - path->value(1, time)) / step;
         });
     }
-    if (!scene_.gravity_file.empty()) add_effect<GravityHistory>(TimeTable(scene_.gravity_file, 3));
+    if (!scene_.gravity_file.empty())
+        gravity_ = add_effect<GravityHistory>(TimeTable(scene_.gravity_file, 3));
     if (scene_.has_effect("viscosity")) add_effect<Viscosity>(scene_.viscosity);
     for (const char* const effect : {"turbulence", "overtopping_basin"})
         if (scene_.has_effect(effect)) switch_on(effect);
@@ -106,8 +106,15 @@ common::Window Simulation::advance_window(const common::WindowClock& clock, std:
     return output_->take();
 }
 
+Work Simulation::work() const {
+    Work work;
+    if (wall_ && scene_.drive == Drive::piston) work = work + wall_->work();
+    if (gravity_) work = work + gravity_->work();
+    return work;
+}
+
 void Simulation::take_stock() {
-    balance_->update(*field_, wall_position());
+    balance_->update(*field_, wall_position(), work());
     balance_->judge(*field_, time_, containment_->returned());
 }
 

@@ -9,6 +9,7 @@
 #include "cmps/effect_watch.hpp"
 #include "cmps/effects/absorption.hpp"
 #include "cmps/effects/containment.hpp"
+#include "cmps/effects/gravity_history.hpp"
 #include "cmps/effects/moving_wall.hpp"
 #include "cmps/effects/overtopping_basin.hpp"
 #include "cmps/effects/wall_overflow.hpp"
@@ -49,6 +50,8 @@ class Simulation {
     void compose_effects();
     /// An effect that may also be added while running: at the end of the step's effects.
     void switch_on(const std::string& effect);
+    /// Done on the water by a piston and by gravity from a table.
+    Work work() const;
     double wall_position() const { return wall_ ? wall_->position() : scene_.offshore; }
     void add_offshore_boundary();
     template <class Kind, class... Arguments>
@@ -61,6 +64,7 @@ class Simulation {
     std::unique_ptr<NearField> field_;
     Containment* containment_ = nullptr;  // these are owned by field_->effects
     MovingWall* wall_ = nullptr;
+    GravityHistory* gravity_ = nullptr;
     OvertoppingBasin* basin_ = nullptr;
     WallOverflow* overflow_ = nullptr;
     Absorption* absorption_ = nullptr;

@@ -1,6 +1,9 @@
 /// Gravity that changes with time (sloshing: the tank's own frame), from a table t, gx, gz.
 #pragma once
 
+#include <array>
+
+#include "cmps/effects/work.hpp"
 #include "cmps/near_field.hpp"
 #include "cmps/time_table.hpp"
 
@@ -10,14 +13,18 @@ class GravityHistory final : public Effect {
  public:
     explicit GravityHistory(TimeTable table) : table_(std::move(table)) {}
     std::string name() const override { return "gravity_history"; }
-    void begin_step(NearField& field, double time, double step) override {
-        // means, so that a jerk within a step gives the water its whole impulse
-        field.settings.gravity_x = table_.mean(1, time, time + step);
-        field.settings.gravity_z = table_.mean(2, time, time + step);
-    }
+    void begin_step(NearField& field, double time, double step) override;
+    void end_step(NearField& field, double time, double step) override;
+    std::vector<double> state() const override { return {work_.net, work_.gross}; }
+    void restore(const std::vector<double>& state) override { work_ = {state.at(0), state.at(1)}; }
+
+    /// Of gravity, on all the water.
+    const Work& work() const { return work_; }
 
  private:
     TimeTable table_;
+    Work work_;
+    std::array<double, 2> before_ = {};  // sums of velocity over the fluid, m/s
 };
 
 }  // namespace cmps

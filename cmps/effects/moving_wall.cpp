@@ -9,8 +9,14 @@ void MovingWall::begin_step(NearField& field, double time, double step) {
         if (particles.body[i] == body_moving_wall) particles.u[i] = speed_;
 }
 
-void MovingWall::end_step(NearField&, double, double step) {
+void MovingWall::end_step(NearField& field, double, double step) {
     displacement_ += step * speed_;
+    const Particles& particles = field.particles;
+    double pressure = 0;  // of all its rows, Pa
+    for (std::size_t row = 0; row < particles.walls; ++row)
+        if (particles.body[particles.first_wall() + row] == body_moving_wall)
+            pressure += field.face_pressure[row];
+    work_.add(step * speed_ * pressure * field.settings.spacing);
 }
 
 double returning_wall_velocity(double wave_velocity, double displacement, double return_time) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "cmps/effects/work.hpp"
 #include "cmps/near_field.hpp"
 
 namespace cmps {
@@ -17,19 +18,22 @@ class MovingWall final : public Effect {
     std::string name() const override { return "moving_wall"; }
     void begin_step(NearField& field, double time, double step) override;
     void end_step(NearField& field, double time, double step) override;
-    std::vector<double> state() const override { return {displacement_, speed_}; }
+    std::vector<double> state() const override { return {displacement_, speed_, work_.net, work_.gross}; }
     void restore(const std::vector<double>& state) override {
-        displacement_ = state.at(0), speed_ = state.at(1);
+        displacement_ = state.at(0), speed_ = state.at(1), work_ = {state.at(2), state.at(3)};
     }
 
     /// Present place of its face, m.
     double position() const { return start_ + displacement_; }
     double displacement() const { return displacement_; }
+    /// Of its face's pressure on the water.
+    const Work& work() const { return work_; }
 
  private:
     double start_;
     std::function<double(double, double, double)> velocity_;
     double displacement_ = 0, speed_ = 0;
+    Work work_;
 };
 
 /// The velocity of eq. (6), brought back slowly: the mean mass flux of the waves would carry the wall away.

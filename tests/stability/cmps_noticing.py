@@ -1,8 +1,13 @@
 """What a run notices, what it must not take for a fault, and what it says before it starts."""
+import os
 import re
 import subprocess
 
-from cmps_program import PROGRAM, Run, expect, finish
+import h5py
+import numpy as np
+
+from cmps_program import FOLDER, PROGRAM, Run, expect, finish
+from cmps_waves import write_waves, write_window
 
 RHO, G = 1000.0, 9.81
 
@@ -42,6 +47,51 @@ for viscosity in (0.1, 0.3):
     viscous = [effect for effect in run.record["effects"] if (effect if isinstance(effect, str) else effect["name"]) == "viscosity"] if isinstance(run.record["effects"], list) else [run.record["effects"]["viscosity"]]
     expect("True" in str(viscous) or "'on'" in str(viscous), f"viscosity {viscosity} m2/s: the effect is on: {viscous}")
 
+# every bound by which a run judges itself, broken by a scene (but that on solves that do not converge: none could be found that do not);
+# without the repulsion of near pairs, say, water falls apart
+def windows_of(height, folder):
+    """A surge of so many depths, that goes on."""
+    os.makedirs(folder, exist_ok=True)
+    x = np.arange(0, 3.01, 0.05)
+    for index in range(6):
+        t = np.linspace(0.5 * index, 0.5 * (index + 1), 21)
+        eta = height * 0.4 * np.interp(t, [0.1, 0.5], [0, 1])[:, None] * np.ones_like(x)
+        write_window(folder, index, t[0], t[-1], t, x, np.full_like(x, 0.4), eta, eta * np.sqrt(G * (0.4 + eta)) / (0.4 + eta))
+    with open(os.path.join(folder, "run.json"), "w") as file:
+        file.write('{"stage": "boussinesq", "status": "done", "windows": 6}')
+    return folder
+
+
+def table(name, text):
+    path = os.path.join(FOLDER, name)
+    with open(path, "w") as file:
+        file.write(text)
+    return path
+
+
+def flume(drive, depth=0.3, x=(-2.0, 4.0), more=""):
+    return f"[time]\nend = 3.0\nwindow = 0.25\n[flume]\nbed = [[{x[0]}, {-depth}], [{x[1]}, {-depth}]]\n[cmps]\ndrive = \"{drive}\"\n{more}\n"
+
+
+still = tank(4, [0, 0.4, 0, 0.5], rectangle(0, 0.4, 0, 0.3), 0.02).replace("window = 1.0", "window = 0.25")
+gravity_table = table("gravity.csv", "t, gx, gz\n0, 0, -9.81\n10, 0, -9.81\n")
+piston_table = table("piston.csv", "t, x\n" + "".join(f"{t:.2f}, {0.03 * np.sin(2 * np.pi * t / 0.8):.6f}\n" for t in np.arange(0, 6, 0.02)))
+gravity, piston = f'gravity_file = "{gravity_table}"', f'drive = "piston"\npiston_file = "{piston_table}"'
+falls_apart = ["cmps.stabilisation=0"]
+for name, scene, sets, waves, said in (
+        ("volume", flume("none", more="offshore = 0.0\nonshore = 1.0\nparticle_spacing = 0.02"), [*falls_apart, "cmps.shifting=0"], None, r"the water's volume is off by -\d+ %"),
+        ("energy of closed water", still, falls_apart, None, r"gained 0\.\d+ of rho g h / 2, and nothing does work on it"),
+        ("energy beyond a table's work", still + gravity, falls_apart, None, r"gained 0\.\d+ of rho g h / 2 beyond the work of -?0\.\d+ done on it"),
+        ("energy beyond a piston's work", still.replace('drive = "none"', piston), [*falls_apart, "cmps.shifting=0"], None, r"gained 0\.\d+ of rho g h / 2 beyond the work of -?0\.\d+ done on it"),
+        ("energy of waves", flume("waves", 0.4, (0.0, 4.0), "offshore = 1.0\nonshore = 3.0\nstart = 0.0\nparticle_spacing = 0.04"), [], windows_of(0.75, os.path.join(FOLDER, "surge")), r"gained 1\.\d+ of rho g h / 2, more than waves can bring"),
+        ("put back", tank(2, [0, 1, 0, 0.8], rectangle(0, 0.25, 0, 0.5), 0.02).replace("window = 1.0", "window = 0.25"), ["cmps.source=density"], None, r"put back out of the solid \d+ times in \d+ steps of \d+ particles"),
+        ("speed", still, [*falls_apart, "cmps.shifting=0", "cmps.density_weight=0"], None, r"moves at [\d.]+ m/s, limit [\d.]+")):
+    run = Run(name.replace(" ", "_"), scene, waves=waves, sets=sets)
+    last = run.messages.strip().splitlines()[-1] if run.messages.strip() else ""
+    expect(run.status == 1 and re.search(r"unstable at t = [\d.]+ s.*" + said, last), f"{name}: exit {run.status}, {last}")
+    whole = [path for path in run.windows() if h5py.File(path).attrs["t_end"] > 0]
+    expect(run.record.get("status") == "failed" and len(whole) > 0, f"{name}: run.json says {run.record.get('status')}, {len(whole)} good windows on disk")
+
 # said before anything runs
 for name, scene, text in (
         ("no water", tank(1, [0, 1, 0, 1], rectangle(0.5, 0.5001, 0.1, 0.4), 0.02), "no water at all"),
@@ -52,4 +102,15 @@ for name, scene, text in (
 run = Run("no_waves", tank(0.1, [0, 0.6, 0, 0.6], rectangle(0, 0.6, 0, 0.3), 0.05, '[effects]\nwall_overflow = "on"\nabsorption = "on"'))
 listed = subprocess.run([PROGRAM, "check", run.path], capture_output=True, text=True).stdout
 expect(len(re.findall(r"(?:wall_overflow|absorption) +off +not driven by waves", listed)) == 2, "effects of waves are off where none come, whatever was wished")
+# waves that come too late: a guess without the waves, a refusal with them
+late = flume("waves", 0.4, (0.0, 60.0), "offshore = 40.0\nonshore = 43.0\nparticle_spacing = 0.05")
+path = table("late.toml", late)
+done = subprocess.run([PROGRAM, "check", path], capture_output=True, text=True)
+expect(done.returncode == 0 and re.search(r"time +nothing to simulate: waves reach cmps.offshore = 40 m at about 20\.2 s, after time.end = 3 s", done.stdout) and "steps" not in done.stdout and "run time" not in done.stdout,
+       f"waves after the end: exit {done.returncode}, " + " ".join(line.strip() for line in done.stdout.splitlines() if line.startswith("  time")))  # 40 m at sqrt(9.81 0.4) m/s
+done = subprocess.run([PROGRAM, "check", path, "--set", "time.end=25"], capture_output=True, text=True)
+expect(re.search(r"time +from about 20\.2 s to 25 s", done.stdout) and "steps" in done.stdout, "waves before the end: from about 20.2 s, with steps and run time")
+write_waves(os.path.join(FOLDER, "late_waves"), 0.05, 1.65, 0.4, 38, 44, 6, window=1.0, arrival=4.0)
+done = subprocess.run([PROGRAM, "check", path, "--waves", os.path.join(FOLDER, "late_waves")], capture_output=True, text=True)
+expect(done.returncode == 2 and "time.end = 3 s lies before the near field starts" in done.stderr, f"waves after the end, known: exit {done.returncode}, {done.stderr.strip()}")
 finish()
