@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "cmps/crest_speed.hpp"
 #include "cmps/effects/overtopping_basin.hpp"
 #include "cmps/effects/turbulence.hpp"
 #include "cmps/effects/viscosity.hpp"
@@ -45,5 +46,19 @@ BENCHMARK_CAPTURE(step_with, none, none)->Arg(5000)->Unit(benchmark::kMillisecon
 BENCHMARK_CAPTURE(step_with, viscosity, viscosity)->Arg(5000)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(step_with, turbulence, turbulence)->Arg(5000)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(step_with, overtopping_basin, basin)->Arg(5000)->Unit(benchmark::kMillisecond);
+
+/// A look at the crests, which EffectWatch takes every 20 steps, per particle.
+void look_at_crests(benchmark::State& state) {
+    constexpr double depth = 0.3, length = 2 * depth;
+    const double spacing = std::sqrt(depth * length / static_cast<double>(state.range(0)));
+    const cmps::Particles particles = cmps_tank::particles(
+        length, spacing, [](double x) { return depth + 0.03 * std::cos(M_PI * x / length); }, 0.5);
+    cmps::CrestSpeed crests(spacing, depth, 1.0);
+    for (auto _ : state) benchmark::DoNotOptimize(crests.fastest(particles, 0.0, length));
+    const auto work = static_cast<double>(state.iterations()) * static_cast<double>(particles.size());
+    state.counters["per_particle"] =
+        benchmark::Counter(work, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(look_at_crests)->Arg(5000)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
