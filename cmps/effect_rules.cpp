@@ -104,7 +104,9 @@ void decide_effects(const common::SceneFile& file, Scene& scene) {
     const bool is_wave_driven = scene.drive == Drive::waves;
     // else the scene is refused anyway
     const bool is_readable = (scene.tank || !scene.bed.empty()) && scene.onshore > scene.offshore &&
-                             scene.settings.spacing > 1e-4 * scene.settings.depth;
+                             scene.settings.spacing > 1e-4 * scene.settings.depth &&
+                             scene.onshore - scene.offshore < 1e6 * scene.settings.spacing;
+    // true: the user leaves it to the rule
     const auto decide = [&](const char* name, bool is_needed, const std::string& reason,
                             bool can_act = true) {
         const EffectWish wish = common::read_effect_wish(file, name);
@@ -114,6 +116,7 @@ void decide_effects(const common::SceneFile& file, Scene& scene) {
             scene.effects.push_back(
                 {name, wish == EffectWish::on,
                  fmt::format("[effects] {} = \"{}\"", name, wish == EffectWish::on ? "on" : "off")});
+        return wish == EffectWish::automatic;
     };
     decide("start_at_arrival", is_wave_driven && !scene.start,
            !is_wave_driven ? "not driven by waves"
@@ -151,8 +154,7 @@ void decide_effects(const common::SceneFile& file, Scene& scene) {
                              scene.settings.spacing));
 
     const Verdict turbulence = is_readable ? needs_turbulence(scene) : Verdict{false, "the scene is refused"};
-    decide("turbulence", turbulence.is_needed, turbulence.reason);
-    scene.turbulence_is_automatic = common::read_effect_wish(file, "turbulence") == EffectWish::automatic;
+    scene.turbulence_is_automatic = decide("turbulence", turbulence.is_needed, turbulence.reason);
 
     double crest = -1e300;
     if (is_readable)
@@ -160,14 +162,14 @@ void decide_effects(const common::SceneFile& file, Scene& scene) {
             for (const Point& p : scene.structure[k]) crest = std::max(crest, p[1]);
     const double reachable = 1.2 * scene.settings.depth;  // run-up of a breaking standing wave
     const bool blocks = crest > 0 && crest < reachable && scene.water.empty() && !scene.tank;
+    const bool basin_is_automatic =
+        decide("overtopping_basin", blocks,
+               crest <= 0           ? "no structure keeps still water back"
+               : crest >= reachable ? fmt::format("crest at {:.2f} m is out of reach", crest)
+               : blocks             ? fmt::format("crest at {:.2f} m can be reached", crest)
+                                    : "cmps.water says where water stands");
     scene.crest_is_out_of_reach =
-        crest >= reachable && scene.water.empty() && !scene.tank &&
-        common::read_effect_wish(file, "overtopping_basin") == EffectWish::automatic;
-    decide("overtopping_basin", blocks,
-           crest <= 0           ? "no structure keeps still water back"
-           : crest >= reachable ? fmt::format("crest at {:.2f} m is out of reach", crest)
-           : blocks             ? fmt::format("crest at {:.2f} m can be reached", crest)
-                                : "cmps.water says where water stands");
+        basin_is_automatic && crest >= reachable && scene.water.empty() && !scene.tank;
 }
 
 }  // namespace cmps

@@ -16,7 +16,7 @@ void MovingWall::end_step(NearField& field, double, double step) {
     for (std::size_t row = 0; row < particles.walls; ++row)
         if (particles.body[particles.first_wall() + row] == body_moving_wall)
             pressure += field.face_pressure[row];
-    work_.add(step * speed_ * pressure * field.settings.spacing);
+    work_.add(pressure * field.settings.spacing * speed_ * step);
 }
 
 double returning_wall_velocity(double wave_velocity, double displacement, double return_time) {
