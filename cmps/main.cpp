@@ -122,6 +122,17 @@ int check(const common::StageCommand& command, const common::SceneFile& file, co
     return common::exit_done;
 }
 
+void restore(cmps::Simulation& simulation, const common::OutputFolder& folder) {
+    try {
+        simulation.restore(folder.state());
+    } catch (const common::InputError& error) {
+        throw common::InputError(
+            fmt::format("{}: {}: another version of cmps wrote it; without --resume the "
+                        "run begins anew",
+                        (folder.path() / "state.h5").string(), error.what()));
+    }
+}
+
 int run(const common::StageCommand& command, const common::SceneFile& file, const cmps::Scene& scene) {
     std::optional<Upstream> upstream;
     std::string upstream_digest;
@@ -150,7 +161,7 @@ int run(const common::StageCommand& command, const common::SceneFile& file, cons
     record.set_effects(scene.effects);
     cmps::Simulation simulation(scene, waves, start);
     if (goes_on)
-        simulation.restore(folder.state());
+        restore(simulation, folder);
     else
         folder.write_geometry(simulation.geometry());
 

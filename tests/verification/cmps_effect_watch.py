@@ -1,17 +1,20 @@
 """What auto left out and turns out to be needed is said at once and switched on; what stays calm is left alone; a run that was interrupted
 before or after goes on to the same bytes. And what auto expects of a scene before it runs."""
 import glob
+import json
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
 import time
 
+import h5py
+import numpy as np
+
 from cmps_program import FOLDER, PROGRAM, Run, expect, finish
 from cmps_waves import write_waves, write_window
-
-import numpy as np
 
 PERIOD, DEPTH = 1.65, 0.4
 
@@ -77,6 +80,23 @@ def interrupted(whole, scene, waves, kills):
     expect(notes(resumed) == notes(whole) and resumed.record["effects"].keys() == whole.record["effects"].keys(), f"{os.path.basename(whole.out)}: run.json says the same after it")
 
 
+def of_another_version(whole, scene, waves):
+    """A state without what the watch remembers cannot be gone on from."""
+    out = os.path.join(FOLDER, "another_version")
+    os.makedirs(out)
+    for path in whole.windows()[:-1] + [os.path.join(whole.out, name) for name in ("state.h5", "run.json")]:
+        shutil.copy(path, out)
+    with open(os.path.join(out, "run.json")) as file:
+        record = json.load(file)
+    with open(os.path.join(out, "run.json"), "w") as file:
+        json.dump({**record, "status": "failed"}, file)
+    with h5py.File(os.path.join(out, "state.h5"), "r+") as file:
+        del file.attrs["switched_on"]
+        file.attrs["next_window"] = len(whole.windows()) - 1
+    run = Run("another_version", scene, waves=waves, resume=True)
+    expect(run.status == 2 and "state.h5: attribute switched_on is missing: another version of cmps wrote it" in run.messages, f"state of another version: exit {run.status}, {run.messages.strip()}")
+
+
 BEACH = f"[[0.0, {-DEPTH}], [27.0, {-DEPTH}], [32.0, 0.1]]"
 
 
@@ -99,6 +119,8 @@ def breaking():
     expect(messages.count("turbulence switched on") == 1, f"breaking waves: {messages.strip().splitlines()[0]}")
     switched = int(float(found[1]) / 0.5) - int(run.figure("start_time") / 0.5) if found else 4
     interrupted(run, scene, high, [switched - 1, switched + 1])
+
+    of_another_version(run, scene, high)
 
     off = Run("breaks_off", scene, waves=high, sets=['effects.turbulence="off"'])
     told = " ".join(notes(off))
