@@ -22,7 +22,8 @@ EffectWatch::EffectWatch(const Scene& scene, const Solid& solid)
       crests_(scene.settings.spacing, highest_water(scene), scene.wave_period),
       end_of_water_(end_of_water(scene, solid)),
       rear_(rear_of_structure(scene, solid)),
-      watches_turbulence_(scene.drive != Drive::none && !scene.has_effect("turbulence")),
+      watches_turbulence_(scene.drive != Drive::none && scene.settings.gravity_z < 0 &&
+                          !scene.has_effect("turbulence")),
       watches_basin_(scene.crest_is_out_of_reach && !scene.has_effect("overtopping_basin")) {}
 
 void EffectWatch::note(std::vector<EffectChange>& changes, EffectChange change) {

@@ -133,6 +133,37 @@ def breaking():
     expect(surging.status == 0 and not notes(surging), f"waves that surge up 1:2 and stand twice as high there: {notes(surging)}")
 
 
+def piston():
+    """A piston that pushes a bore before it, one that swings gently, and one where nothing weighs and no wave can be."""
+    def driven(name, rows, more=""):
+        path = os.path.join(FOLDER, name + ".csv")
+        with open(path, "w") as file:
+            file.write("t, x\n" + "".join(f"{t:.3f}, {x:.5f}\n" for t, x in rows))
+        return Run(name, f"""
+[time]
+end = 1.6
+window = 0.5
+[flume]
+bed = [[-2.0, {-DEPTH}], [4.0, {-DEPTH}]]
+[cmps]
+drive = "piston"
+piston_file = "{path}"
+offshore = 0.0
+onshore = 4.0
+particle_spacing = 0.025
+{more}
+""")
+
+    t = np.arange(0, 2.0, 0.02)
+    push = np.column_stack([t, 1.6 * np.clip(t - 0.1, 0, 0.7)])  # 0.8 sqrt(g d): a bore of twice the depth
+    bore = driven("bore", push)
+    expect(bore.status == 0 and len(notes(bore)) == 1 and effect(bore, "turbulence")["on"], f"piston, bore: exit {bore.status}, {notes(bore)}")
+    swing = driven("swing", np.column_stack([t, 0.04 * (1 - np.cos(2 * np.pi * t / 1.6))]))
+    expect(swing.status == 0 and not notes(swing), f"piston, gentle: exit {swing.status}, {notes(swing)}")
+    weightless = driven("weightless", push, f"gravity = [0, 0]\nwater = [[[0, {-DEPTH}], [3, {-DEPTH}], [3, 0], [0, 0]]]\nwater_velocity = [[1.6, 0]]")
+    expect(weightless.status == 0 and not notes(weightless), f"piston, no gravity: exit {weightless.status} {weightless.messages.strip()}, {notes(weightless)}")
+
+
 def comes_over():
     """A wall whose crest auto holds to be out of reach, 1.25 depths up, and a surge of 0.75 depths."""
     def surge(name, share):
@@ -192,7 +223,7 @@ def expected():
         expect(word == wanted, f"{name}: turbulence {word}: {reason}")
 
 
-for case in (breaking, comes_over, expected):
+for case in (breaking, piston, comes_over, expected):
     if len(sys.argv) < 2 or sys.argv[1] in case.__name__:
         case()
 finish()
