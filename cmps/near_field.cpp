@@ -48,6 +48,8 @@ double NearField::largest_step() const {
     double step = 0.4 * l0 / std::sqrt(g * std::max(settings.depth, l0));
     if (largest_speed_ > 0) step = std::min(step, settings.courant * l0 / largest_speed_);
     if (largest_acceleration_ > 0) step = std::min(step, 0.25 * std::sqrt(l0 / largest_acceleration_));
+    // water at rest that weighs nothing: as if it did, for a wall may come
+    if (!std::isfinite(step)) step = 0.4 * l0 / std::sqrt(9.81 * std::max(settings.depth, l0));
     step *= settings.time_step_factor;
     for (const auto& effect : effects) step = std::min(step, effect->longest_step(*this));
     return step;

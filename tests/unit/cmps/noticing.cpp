@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "cmps/effects/viscosity.hpp"
@@ -40,6 +42,19 @@ TEST(Noticing, ViscosityLimitsTheStep) {
     const double kinematic = 0.25 * l0 * l0 / (0.5 * without);  // asks for half of it
     field.effects.push_back(std::make_unique<cmps::Viscosity>(kinematic));
     EXPECT_DOUBLE_EQ(field.largest_step(), 0.5 * without);
+}
+
+TEST(Noticing, WaterAtRestThatWeighsNothingHasAStepAndStays) {
+    cmps::NearField field = tank();
+    const double weighing = field.largest_step();
+    field.settings.gravity_z = 0;
+    EXPECT_DOUBLE_EQ(field.largest_step(), weighing);
+    for (int k = 0; k < 3; ++k) field.advance(0.0, field.largest_step());
+    double fastest = 0;
+    for (std::size_t i = 0; i < field.particles.size(); ++i)
+        fastest = std::max(fastest, std::abs(field.particles.u[i]) + std::abs(field.particles.w[i]));
+    EXPECT_LT(fastest, 0.02);  // m/s: what spreads an uneven lattice, a hundredth of sqrt(g d)
+    EXPECT_TRUE(std::isfinite(field.largest_step()));
 }
 
 }  // namespace
