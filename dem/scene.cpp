@@ -94,9 +94,13 @@ void read_stepping(const SceneFile& file, const Section& dem, Scene& scene) {
     scene.step.skin = d * dem.number("skin", "d", "of neighbour lists; no effect on results",
                                      Range{.lowest = 0, .highest = 2, .lowest_is_open = true}, 0.15);
     scene.step.overlap_noted =
-        d * dem.number("overlap_noted", "d", "deeper contacts are counted", Range::positive(), 0.05);
+        d * dem.number("overlap_noted", "d",
+                       "deeper contacts are counted; of smaller spheres, their diameters", Range::positive(),
+                       0.05);
     scene.step.overlap_limit =
-        d * dem.number("overlap_limit", "d", "deeper contacts stop the run", Range::positive(), 0.5);
+        d * dem.number("overlap_limit", "d",
+                       "deeper contacts stop the run; of smaller spheres, their diameters", Range::positive(),
+                       0.5);
     if (scene.step.overlap_noted > scene.step.overlap_limit && dem.has("overlap_noted"))
         dem.problem("overlap_noted",
                     fmt::format("expected at most dem.overlap_limit, {} d", scene.step.overlap_limit / d));

@@ -391,13 +391,18 @@ void judge_fixed_spheres(const Section& dem, const std::vector<Vector>& given) {
     }
 }
 
-/// Smaller spheres than a shape's own reach deeper into it: those of other shapes, and fixed ones.
-void expose_to_smaller_spheres(std::vector<Shape>& shapes, double fixed_diameter) {
-    double smallest = fixed_diameter;
-    for (const auto& shape : shapes) smallest = std::min(smallest, shape.diameter);
-    for (auto& shape : shapes)
+/// Smaller spheres than a shape's own reach deeper into it, and overlaps are deep that would be shallow of
+/// elements.
+void mind_small_spheres(Scene& scene) {
+    double smallest = scene.element.diameter;
+    for (const auto& shape : scene.placed.shapes) smallest = std::min(smallest, shape.diameter);
+    for (auto& shape : scene.placed.shapes)
         if (smallest < shape.diameter)
             shape.exposed = exposed_spheres(shape.spheres, shape.diameter, smallest);
+    const double share = smallest / scene.element.diameter;
+    for (double* overlap :
+         {&scene.step.overlap_noted, &scene.step.overlap_limit, &scene.step.element_overlap_allowed})
+        *overlap *= share;
 }
 
 /// Spheres that never move: those given one by one, and the mound's columns. Returns the latter.
@@ -438,7 +443,7 @@ void read_blocks(const SceneFile& file, Scene& scene) {
     if (armour) place_armour(dem, scene, *armour, scene.surroundings.fixed_spheres);
     const std::size_t placed_singly = scene.placed.size();
     read_single_blocks(dem, book, scene);
-    expose_to_smaller_spheres(scene.placed.shapes, scene.element.diameter);
+    mind_small_spheres(scene);
     if (scene.surroundings.period > 0) {
         double farthest = 0;
         for (const auto& shape : scene.placed.shapes) farthest = std::max(farthest, shape.radius);

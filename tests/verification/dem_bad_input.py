@@ -67,6 +67,9 @@ refused("blocks inside each other", GOOD.split("[dem.blocks]")[0] +
 INSIDE = '[time]\nend = 0.1\n[dem]\ndry = true\n[[dem.block]]\nshape = "cube27"\nposition = [0.0, 0.0, 0.0]\n[[dem.block]]\nshape = "sphere"\nposition = [{}, 0.0, 0.0]\n'
 refused("block within another, where none of its outer spheres is", INSIDE.format(0.0), "scene.toml:10:", "block 2 starts 0.008 m deep in block 1")
 check.true("and one beside it, which touches it", run(INSIDE.format(0.016)).status == 0)
+PEBBLES = "[dem.shape]\nspheres = [[0.0, 0.0, 0.0]]\ndiameter = 0.25\n"
+refused("small blocks in one place, no deeper than elements may start", INSIDE.format(0.0002).replace("cube27", "pebble.toml").replace('"sphere"', '"pebble.toml"'), "scene.toml:10:",
+        "block", "deep in block", "at most 0.0005 m", files={"pebble.toml": PEBBLES})
 refused("block too far away to tell overlaps apart", INSIDE.format(1.0e9), "scene.toml:10:", "block 2 is so far from the origin", "2e-07 m")
 for verb in ("run", "pack", "check"):
     refused(f"{verb}: gravity that takes blocks off the mound", put("", "width = 0.1", "width = 0.1\ngravity = [0.0, 0.0, 9.81]"), "scene.toml:6:", "dem.gravity", "never settle", verb=verb)

@@ -180,6 +180,13 @@ check.true("a pebble falls down a hole of a boulder", r.status == 0, r.message.s
 # Pressed in by some thousandths of d.
 check.below("and lies on the sphere inside", abs(r.series("/blocks/position")[-1, 1, 2] - (inside[2] + 1.25 * d)) / d, 0.01, "d")
 
+# Two pebbles of a quarter of an element, too soft for their speed, would pass through each other: no overlap of theirs is half an element.
+with open(os.path.join(again, "pebble.toml"), "w") as f:
+    f.write("[dem.shape]\nspheres = [[0.0, 0.0, 0.0]]\ndiameter = 0.25\nelements = 1\n")
+r = run(scene(0.1, "dry = true\nyoung_modulus = 1e5\ntime_step = 1e-5\ngravity = [0.0, 0.0, 0.0]",
+              block("pebble.toml", (0, 0, 0), "fixed = true") + block("pebble.toml", (0.0, 0.0, 0.02), "velocity = [0.0, 0.0, -3.0]")), folder=again)
+check.true("small spheres that pass through each other stop the run", r.status == 1 and "past the limit of 0.001 m" in r.message, r.message.strip())
+
 # Size and stiffness of everything 64 times as large, times by the root of that: the trial of the step and the packing see the same.
 def scaled(size, more=""):
     root = np.sqrt(size)
