@@ -34,7 +34,8 @@ void Blocks::place(std::size_t block, const Vector& at, const Quaternion& turned
 void Blocks::update_angular_velocity(std::size_t block) {
     const Rotation& turn = rotation[block];
     const Vector in_body = turn.transpose() * angular_momentum[block];
-    angular_velocity[block] = turn * in_body.cwiseQuotient(inertia(block));
+    angular_velocity[block] =
+        turn * in_body.cwiseProduct(shape_of(block).inverse_inertia * (1 / mass_ratio[block]));
 }
 
 double Blocks::set_mass_ratio(std::size_t block, double ratio) {

@@ -54,11 +54,13 @@ struct CoulombFriction {
     double coefficient;
     double stiffness_ratio;  ///< tangential over normal
     double root_of_ratio;
+    double half_compliance_ratio;  ///< 1 / (2 stiffness_ratio)
 
     explicit CoulombFriction(const Material& material)
         : coefficient(material.friction),
           stiffness_ratio(material.stiffness_ratio()),
-          root_of_ratio(std::sqrt(stiffness_ratio)) {}
+          root_of_ratio(std::sqrt(stiffness_ratio)),
+          half_compliance_ratio(0.5 / stiffness_ratio) {}
 
     /// `spring`: stored force on the first body (updated); `stiffness_before`: normal stiffness one step ago.
     /// `slip_speed`: velocity of the first body relative to the second, tangential, m/s. `dashpot`: of the
@@ -84,7 +86,7 @@ struct CoulombFriction {
             const double inverse = 1 / (stiffness * stiffness_before);
             const double growth = stiffness * stiffness * inverse;
             if (growth < 1) spring *= growth;
-            const double per_stiffness = 0.5 * stiffness_before * inverse / stiffness_ratio;  // 1 / (2 k_t)
+            const double per_stiffness = half_compliance_ratio * stiffness_before * inverse;  // 1 / (2 k_t)
             dissipated += (before * growth - spring.squaredNorm()) * per_stiffness;
         }
         spring -= tangential_stiffness * dt * slip_speed;

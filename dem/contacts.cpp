@@ -35,30 +35,31 @@ void find_touches(const Blocks& blocks, const Surroundings& surroundings, const 
     const Vector& centre = blocks.position[pair.block];
     const double radius = 0.5 * shape.diameter;
 
+    // `share`: the partner's part of the reach.
     const auto add = [&](const Candidate& candidate, const Vector& arm, const Vector& between, double squared,
-                         double reach, double partner_radius) {
+                         double reach, double share) {
         const double distance = std::sqrt(squared);
         const double overlap = reach - distance;
         // Two centres at one place (a user's start) have no normal; up is as good as any.
         const Vector normal = distance > 0 ? Vector(between * (1 / distance)) : Vector(0, 0, -1);
-        touches.push_back({candidate.a, candidate.b, overlap, normal,
-                           arm + (radius - overlap * partner_radius / reach) * normal});
+        touches.push_back(
+            {candidate.a, candidate.b, overlap, normal, arm + (radius - overlap * share) * normal});
     };
 
     if (list.is_block(pair.partner)) {
         const Shape& other = blocks.shape_of(pair.partner);
         const Rotation& other_turn = blocks.rotation[pair.partner];
         const Vector offset = partner_from_block(blocks, surroundings, list, pair);
-        const double reach = radius + 0.5 * other.diameter;
+        const double reach = radius + 0.5 * other.diameter, share = 0.5 * other.diameter / reach;
         for (const auto& candidate : list.candidates(pair)) {
             const Vector arm = turn * shape.spheres[candidate.a];
             const Vector between = offset + other_turn * other.spheres[candidate.b] - arm;
             const double squared = between.squaredNorm();
-            if (squared < reach * reach) add(candidate, arm, between, squared, reach, 0.5 * other.diameter);
+            if (squared < reach * reach) add(candidate, arm, between, squared, reach, share);
         }
     } else if (list.is_fixed_spheres(pair.partner)) {
         const double partner_radius = 0.5 * surroundings.fixed_spheres.diameter();
-        const double reach = radius + partner_radius;
+        const double reach = radius + partner_radius, share = partner_radius / reach;
         const auto candidates = list.candidates(pair);
         const auto centres = list.centres(pair);
         for (std::size_t k = 0; k < candidates.size(); ++k) {
@@ -66,7 +67,7 @@ void find_touches(const Blocks& blocks, const Surroundings& surroundings, const 
             const Vector arm = turn * shape.spheres[candidate.a];
             const Vector between = centres[k] - centre - arm;
             const double squared = between.squaredNorm();
-            if (squared < reach * reach) add(candidate, arm, between, squared, reach, partner_radius);
+            if (squared < reach * reach) add(candidate, arm, between, squared, reach, share);
         }
     } else {
         const Plane& plane = list.plane(pair.partner);
@@ -98,10 +99,11 @@ double reduced_radius(const Blocks& blocks, const Surroundings& surroundings, co
 
 /// Mass of the two-body system, kg.
 double reduced_mass(const Blocks& blocks, const PairList& list, const Pair& pair) {
-    double inverse = blocks.is_fixed[pair.block] ? 0 : 1 / blocks.mass(pair.block);
-    if (list.is_block(pair.partner) && !blocks.is_fixed[pair.partner])
-        inverse += 1 / blocks.mass(pair.partner);
-    return 1 / inverse;
+    const bool partner_moves = list.is_block(pair.partner) && !blocks.is_fixed[pair.partner];
+    if (!partner_moves) return blocks.mass(pair.block);
+    const double mass = blocks.mass(pair.partner);
+    if (blocks.is_fixed[pair.block]) return mass;
+    return mass * blocks.mass(pair.block) / (mass + blocks.mass(pair.block));
 }
 
 template <class Law, class Friction>

@@ -57,7 +57,7 @@ void turn_freely(Quaternion& orientation, const Rotation& rotation, const Vector
 
 double drift(Blocks& blocks, std::size_t block, double step) {
     blocks.position[block] += step * blocks.velocity[block];
-    const Vector inverse_inertia = blocks.shape_of(block).inverse_inertia / blocks.mass_ratio[block];
+    const Vector inverse_inertia = blocks.shape_of(block).inverse_inertia * (1 / blocks.mass_ratio[block]);
     turn_freely(blocks.orientation[block], blocks.rotation[block], blocks.angular_momentum[block],
                 inverse_inertia, step);
     blocks.rotation[block] = blocks.orientation[block].toRotationMatrix();
