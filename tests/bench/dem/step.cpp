@@ -76,6 +76,14 @@ void peer_scene(benchmark::State& state) {
 }
 BENCHMARK(peer_scene)->Unit(benchmark::kMillisecond);
 
+/// As others ran it: without water, under the weight that buoyancy leaves.
+void peer_scene_dry(benchmark::State& state) {
+    common::use_threads(1);
+    time_steps(state,
+               one(settled(scene_with({"effects.fluid_force=off", "dem.gravity=[0, 0, -7.15]"}), 0.3)));
+}
+BENCHMARK(peer_scene_dry)->Unit(benchmark::kMillisecond);
+
 void three_layers(benchmark::State& state) {
     common::use_threads(1);
     time_steps(state, one(settled(scene_with({"dem.blocks.layers=3"}), 0.5)));
