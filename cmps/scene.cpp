@@ -213,10 +213,10 @@ void read_numerics(const common::SceneFile& file, const Section& section, Scene&
     settings.time_step_factor =
         section.number("time_step_factor", "-", "on the largest step by speed, celerity and acceleration",
                        Range::between(0.01, 4), settings.time_step_factor);
-    if (const double way = settings.courant * settings.time_step_factor; way > 1)
+    if (const double way = settings.courant * settings.time_step_factor; way >= 1)
         section.problem("time_step_factor",
                         fmt::format("{:g} times cmps.courant = {:g}: water would move by {:g} l0 in a step, "
-                                    "past its neighbours; at most 1",
+                                    "past its neighbours; less than 1",
                                     settings.time_step_factor, settings.courant, way));
     const auto gravity = section.numbers("gravity", "m/s2", "x and z component", 2, Range::any(),
                                          std::vector<double>{0.0, -9.81});

@@ -34,7 +34,7 @@ struct Settings {
     double shifting = 0.3;              ///< coefficient of particle shifting, 0: none
     double velocity_filter = 0;         ///< strength of the filter of particle-scale velocities, 0: none
     double stabilisation = 0.9;         ///< pairs nearer than this many l0 are pushed apart, 0: none
-    double courant = 0.3;               ///< u dt / l0
+    double courant = 0.25;              ///< u dt / l0
     double time_step_factor = 1;        ///< on the largest step by speed, celerity and acceleration
     double gravity_x = 0, gravity_z = -9.81;  ///< m/s2
     double fall = 0;                          ///< how far water can fall at most, m: bounds its speed
