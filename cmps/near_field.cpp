@@ -201,16 +201,18 @@ void NearField::apply_gradient(double step) {
     largest_acceleration_ = std::sqrt(strongest);
 }
 
-/// The water's own pressure carried on to the face with the gradient that has just moved it, and what the
-/// wall has given in contact: the force that stops the water and the pressure that is reported are then the
-/// same. The wall particles' unknowns are not: while little water stands before them, they are larger than
-/// what the water feels. For the same reason a particle at the surface has the pressure that its own gradient
-/// makes over the half spacing from the surface, where that is less.
+/// The water's own pressure carried on to the face with the gradient that has just moved it (over water, not
+/// over what is empty between the nearest water and the face), and what the wall has given in contact: the
+/// force that stops the water and the pressure that is reported are then the same. The wall particles'
+/// unknowns are not: while little water stands before them, they are larger than what the water feels. For
+/// the same reason a particle at the surface has the pressure that its own gradient makes over the half
+/// spacing from the surface, where that is less.
 void NearField::find_face_pressure() {
     face_pressure = contacts_.wall_pressure();
     const NeighbourLists& lists = search.lists();
     const std::size_t first_fluid = particles.first_fluid();
-    const double half = 0.5 * settings.spacing;
+    const double half = 0.5 * settings.spacing,
+                 kernel_reach = settings.kernel_radius_ratio * settings.spacing;
     const auto own_pressure = [&](std::size_t f) {
         const double pressure = particles.pressure[first_fluid + f];
         const std::size_t row = particles.walls + f;
@@ -220,19 +222,34 @@ void NearField::find_face_pressure() {
         const double inwards = size > 0 ? (gradient_x_[f] * fx + gradient_z_[f] * fz) / size : 0.0;
         return std::min(pressure, half * std::max(0.0, inwards));
     };
+    // between a face and the water that comes at it there is nothing yet, and no pressure to gain
+    const auto empty_before = [&](std::size_t row) {
+        const std::size_t j = particles.first_wall() + row;
+        const double nx = particles.normal_x[j], nz = particles.normal_z[j];
+        double nearest = kernel_reach;
+        for (std::size_t k = lists.start[row + 1]; k-- > lists.start[row];) {
+            if (static_cast<std::size_t>(lists.neighbour[k]) < first_fluid) break;
+            const double dx = interactions.dx[k], dz = interactions.dz[k];
+            if (std::abs(dx * nz - dz * nx) < settings.spacing)
+                nearest = std::min(nearest, dx * nx + dz * nz);
+        }
+        return nearest < kernel_reach ? std::max(0.0, nearest - settings.spacing) : 0.0;
+    };
     for (std::size_t row = 0; row < particles.walls; ++row) {
         if (place[row] == Place::dry) continue;
         const std::size_t j = particles.first_wall() + row;
         const double face_x = half * particles.normal_x[j], face_z = half * particles.normal_z[j];
+        const double empty = empty_before(row);
+        const double empty_x = empty * particles.normal_x[j], empty_z = empty * particles.normal_z[j];
         double sum = 0, weights = 0;
         for (std::size_t k = lists.start[row + 1]; k-- > lists.start[row];) {  // the fluid stands last
             const auto i = static_cast<std::size_t>(lists.neighbour[k]);
             if (i < first_fluid) break;
             const std::size_t f = i - first_fluid;
             const auto weight = static_cast<double>(interactions.weight[k]);
-            sum += weight *
-                   (own_pressure(f) + gradient_x_[f] * (face_x - static_cast<double>(interactions.dx[k])) +
-                    gradient_z_[f] * (face_z - static_cast<double>(interactions.dz[k])));
+            sum += weight * (own_pressure(f) +
+                             gradient_x_[f] * (face_x + empty_x - static_cast<double>(interactions.dx[k])) +
+                             gradient_z_[f] * (face_z + empty_z - static_cast<double>(interactions.dz[k])));
             weights += weight;
         }
         if (weights > 0) face_pressure[row] += std::max(0.0, sum / weights);
