@@ -20,7 +20,8 @@ std::vector<common::ExpectedDataset> expected_flow() {
             {"/flow/wet", "-", {"nt", "nz", "nx"}}};
 }
 
-FlowGrid flow_grid_of(const common::Window& window, bool still_outside, const std::string& path) {
+FlowGrid flow_grid_of(const common::Window& window, const std::optional<UniformWater>& still,
+                      const std::string& path) {
     FlowHistory history;
     history.time = window.at("/flow/time").as_double();
     history.x = window.at("/flow/x").as_double();
@@ -42,7 +43,7 @@ FlowGrid flow_grid_of(const common::Window& window, bool still_outside, const st
         out[4] = static_cast<float>(wet[i]);
     }
     try {
-        return FlowGrid(std::move(history), still_outside);
+        return FlowGrid(std::move(history), still);
     } catch (const std::invalid_argument& error) {
         throw common::InputError(fmt::format("{}: /flow/x, /flow/z: {}", path, error.what()));
     }

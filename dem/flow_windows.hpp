@@ -15,9 +15,10 @@ namespace dem {
 /// What this stage needs to find in a window of cmps.
 std::vector<common::ExpectedDataset> expected_flow();
 
-/// The flow grid of one window. Throws common::InputError naming `path` and the dataset (axes not uniform,
-/// too few samples, wet fractions outside 0 to 1).
-FlowGrid flow_grid_of(const common::Window& window, bool still_outside, const std::string& path);
+/// The flow grid of one window, with the water outside it where that is known. Throws common::InputError
+/// naming `path` and the dataset (axes not uniform, too few samples, wet fractions outside 0 to 1).
+FlowGrid flow_grid_of(const common::Window& window, const std::optional<UniformWater>& still,
+                      const std::string& path);
 
 /// Throws common::InputError unless the grid covers every sphere of every block that can move.
 void require_cover(const FlowGrid& grid, const Blocks& blocks, const std::string& folder);

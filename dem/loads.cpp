@@ -12,14 +12,19 @@ namespace dem {
 
 namespace {
 
-constexpr double wave_speed =
-    0.1;  // m/s: above the near field's noise in still water, far below what moves a block
+/// Water faster than this is a wave, m/s: 0.1 m/s for elements of 8 mm, above the near field's noise in still
+/// water and far below what moves a block, and to Froude's scale for others.
+double speed_of_waves(const FluidProperties& properties) {
+    return 0.357 * std::sqrt(properties.gravity.norm() * properties.element.diameter);
+}
 
 }  // namespace
 
 FluidLoads::FluidLoads(const Blocks& blocks, FluidProperties properties,
                        std::variant<UniformWater, FlowGrid> water_motion)
-    : motion_(std::move(water_motion)), properties_(std::move(properties)) {
+    : motion_(std::move(water_motion)),
+      properties_(std::move(properties)),
+      wave_speed_(speed_of_waves(properties_)) {
     is_awake_.assign(blocks.size(), 1);
     resting_.resize(blocks.size());
     loads_.resize(blocks.size());
@@ -47,7 +52,7 @@ void FluidLoads::sample_block(Blocks& blocks, std::size_t i, double t) {
                         t, i + 1, outside.what()));
     }
     in_motion_[i] = FluidLoadInMotion(loads_[i]);
-    if (waves_reach_blocks < 0 && loads_[i].water_speed > wave_speed) waves_reach_blocks = t;
+    if (waves_reach_blocks < 0 && loads_[i].water_speed > wave_speed_) waves_reach_blocks = t;
     const double ratio = mass_ratio(blocks.shape_of(i), loads_[i].wet, properties_);
     if (ratio != blocks.mass_ratio[i]) work += blocks.set_mass_ratio(i, ratio);
     if (!is_awake_[i]) remember(blocks, i);
@@ -81,7 +86,7 @@ bool FluidLoads::stays_as_sampled(const Blocks& blocks, std::size_t i) {
     if (resting.interval == grid->interval()) return true;
     const FlowGrid::Change change = grid->largest_change(resting.points, resting.values);
     // What follows from the sample besides the load must not differ either.
-    if (change.wet || (waves_reach_blocks < 0 && change.speed > wave_speed)) return false;
+    if (change.wet || (waves_reach_blocks < 0 && change.speed > wave_speed_)) return false;
     resting.interval = grid->interval();
     // No arm is longer than the radius: the torque over it differs by no more than the force.
     resting.uncertainty = 2 * largest_load_change(blocks.shape_of(i), change, properties_);

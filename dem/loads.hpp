@@ -58,7 +58,7 @@ class FluidLoads final : public Load {
     double work = 0;        ///< done by the water on blocks, buoyancy and added mass included, J
     double gross_work = 0;  ///< the same in absolute value, J
     double waves_reach_blocks =
-        -1;  ///< first time the water at some block is faster than 0.1 m/s, s; -1: not yet
+        -1;  ///< first time the water at some block is faster than 0.357 sqrt(g d), s; -1: not yet
 
  private:
     static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
@@ -75,6 +75,7 @@ class FluidLoads final : public Load {
 
     std::variant<UniformWater, FlowGrid> motion_;
     FluidProperties properties_;
+    double wave_speed_;  // m/s
     std::vector<std::uint8_t> is_awake_;
     std::vector<Resting> resting_;
     std::vector<FluidLoad> loads_;

@@ -59,14 +59,18 @@ class FlowSource {
         if (has_flow()) require_same_mound(folder_, scene_.mound, blocks);
         if (has_flow() && !scene_.still_outside)
             dem::require_cover(
-                flow_grid_of(reader_->first(), false, reader_->path_of(reader_->first().index).string()),
-                blocks, folder_.string());
+                flow_grid_of(reader_->first(), {}, reader_->path_of(reader_->first().index).string()), blocks,
+                folder_.string());
     }
 
     struct Span {
         double begin, end;
         std::optional<FlowGrid> grid;
     };
+    std::optional<UniformWater> water_outside() const {
+        if (!scene_.still_outside) return {};
+        return UniformWater{.element_diameter = scene_.element.diameter};
+    }
     /// Window `index` of this run, or nothing when all is done.
     std::optional<Span> receive(std::int64_t index) {
         if (!has_flow()) {
@@ -79,7 +83,7 @@ class FlowSource {
                      end = std::min(window->t_end, scene_.time.end);
         if (end <= begin + tolerance) return {};
         return Span{begin, end,
-                    flow_grid_of(*window, scene_.still_outside, reader_->path_of(first_ + index).string())};
+                    flow_grid_of(*window, water_outside(), reader_->path_of(first_ + index).string())};
     }
     /// Throws InputError where window `index` does not begin at `t`, where the run stands.
     void require_next(std::int64_t index, const Span& span, double t) const {

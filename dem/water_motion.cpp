@@ -30,8 +30,8 @@ void UniformWater::sample(const std::vector<double>& x, const std::vector<double
     fill(samples.acceleration, acceleration);
 }
 
-FlowGrid::FlowGrid(FlowHistory history, bool still_outside)
-    : history_(std::move(history)), still_outside_(still_outside) {
+FlowGrid::FlowGrid(FlowHistory history, std::optional<UniformWater> still)
+    : history_(std::move(history)), still_(still) {
     if (history_.x.size() < 2 || history_.z.size() < 2 || !is_uniform(history_.x) || !is_uniform(history_.z))
         throw std::invalid_argument("the axes of the flow grid must be uniform, with two points at least");
     count_x_ = history_.x.size();
@@ -62,13 +62,13 @@ inline void FlowGrid::interpolate(double x, double z, double (&value)[padded_fie
     const double across = (x - origin_x_) * per_spacing_x_, up = (z - origin_z_) * per_spacing_z_;
     if (!(across >= 0 && up >= 0 && across <= static_cast<double>(count_x_ - 1) &&
           up <= static_cast<double>(count_z_ - 1))) {
-        if (!still_outside_)
+        if (!still_)
             throw std::out_of_range(fmt::format(
                 "x = {:.4f} m, z = {:.4f} m is outside the flow grid (x {:.4f} to {:.4f} m, z "
                 "{:.4f} to {:.4f} m)",
                 x, z, history_.x.front(), history_.x.back(), history_.z.front(), history_.z.back()));
         std::fill(std::begin(value), std::end(value), 0.0);
-        value[4] = z < 0 ? 1.0 : 0.0;
+        value[4] = still_->wet_at(z);
         return;
     }
     const std::size_t i = std::min(static_cast<std::size_t>(across), count_x_ - 2);

@@ -75,7 +75,8 @@ class FlowGrid {
     static constexpr std::size_t fields = 5;
 
     FlowGrid() = default;
-    explicit FlowGrid(FlowHistory history, bool still_outside = false);
+    /// `still`: the water outside the grid; without it nothing is known there.
+    explicit FlowGrid(FlowHistory history, std::optional<UniformWater> still = {});
 
     /// Interpolates the grid to time t, which must lie within the history (a rounding error outside is
     /// inside).
@@ -88,7 +89,7 @@ class FlowGrid {
     }
     const FlowHistory& history() const { return history_; }
 
-    /// Outside the grid: still water below z = 0 where the scene says so; else std::out_of_range.
+    /// Throws std::out_of_range where nothing is known.
     WaterSample at(const Vector& point) const;
     /// The same at the places (x, z), m.
     void sample(const std::vector<double>& x, const std::vector<double>& z, WaterSamples& samples) const;
@@ -120,7 +121,7 @@ class FlowGrid {
     void interpolate(double x, double z, double (&value)[padded_fields]) const;
 
     FlowHistory history_;
-    bool still_outside_ = false;
+    std::optional<UniformWater> still_;
     std::size_t values_ = 0;   // of an instant
     std::vector<double> now_;  // (z, x, fields), and padding
     double origin_x_ = 0, origin_z_ = 0, per_spacing_x_ = 0, per_spacing_z_ = 0;

@@ -297,11 +297,12 @@ TEST(FlowGrid, IsExactForBilinearFieldsAndLinearTime) {
 }
 
 TEST(FlowGrid, OutsideIsAnErrorUnlessStill) {
-    const dem::FlowGrid strict(linear_flow()), still(linear_flow(), true);
+    const dem::FlowGrid strict(linear_flow()), still(linear_flow(), dem::UniformWater{});
     EXPECT_THROW(strict.at(Vector(1.01, 0, -0.3)), std::out_of_range);
     EXPECT_EQ(still.at(Vector(1.01, 0, -0.3)).velocity, Vector(0, 0, 0));
     EXPECT_EQ(still.at(Vector(1.01, 0, -0.3)).wet, 1);
     EXPECT_EQ(still.at(Vector(1.01, 0, 0.3)).wet, 0);
+    EXPECT_DOUBLE_EQ(still.at(Vector(1.01, 0, -0.002)).wet, 0.75);  // a quarter of an element below z = 0
 }
 
 TEST(FluidLoads, LoadKeptForASleeperIsOffByNoMoreThanItSays) {
