@@ -10,7 +10,6 @@ the incident height (2.0 when the boundary lets everything out), and whether it 
 
 The waves are those of linear theory. Writes boundaries_cmps.csv and boundaries_cmps.png.
 """
-import argparse
 import csv
 import glob
 import json
@@ -22,7 +21,8 @@ import h5py
 import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, "../../tests/support"))
+sys.path[:0] = [os.path.join(HERE, ".."), os.path.join(HERE, "../../tests/support")]
+import study  # noqa: E402
 from cmps_waves import wave_number, write_waves, write_window  # noqa: E402
 
 DEPTH, PERIOD, OFFSHORE = 0.4, 1.65, 25.0
@@ -181,11 +181,7 @@ def steady(arguments, name, more, height=0.06, periods=24, lengths=(4.2, 4.57, 4
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--bin", required=True)
-    parser.add_argument("--out", required=True)
-    parser.add_argument("--scene", help="taken by other studies; not used here")
-    parser.add_argument("--smoke", action="store_true")
+    parser = study.command_line(__doc__)
     parser.add_argument("--over-depth", type=int, default=16, help="particles over the depth")
     parser.add_argument("--try", dest="trial", nargs=2, action="append", metavar=("NAME", "KEYS"), help="a boundary of your own: cmps keys, \\n between")
     parser.add_argument("--lengths", type=float, nargs="+", default=[4.2, 4.57, 4.94], help="of the steady test's flumes, m")

@@ -8,10 +8,8 @@ rms difference of six gauges to the finest run over the range, the finest row be
 Factors: cell size, step size (Courant number), and what is left out (dispersion off). Times are of the run itself, from run.json:
 median, least and most of the repeats; what `check` told of steps and time over what they came to is listed too. Writes cost_boussinesq.csv and cost_boussinesq.png.
 """
-import argparse
 import csv
 import math
-import os
 import pathlib
 import re
 import statistics
@@ -22,6 +20,7 @@ import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import run_folder  # noqa: E402
+import study  # noqa: E402
 
 COLUMNS = ["stage", "case", "factor", "setting", "cells_per_length", "error", "against", "compute_s", "compute_least_s", "compute_most_s", "wall_s", "cpu_s",
            "peak_memory_bytes", "steps", "cells", "ns_per_cell_step", "forecast_steps_over_steps", "forecast_time_over_cpu"]
@@ -192,13 +191,8 @@ def draw(rows, path):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--bin", required=True, type=pathlib.Path, help="folder of the programs")
-    parser.add_argument("--out", required=True, type=pathlib.Path, help="folder for runs, CSV and picture")
-    parser.add_argument("--scene", type=pathlib.Path, help="not used: cost_scene.py studies a scene of one's own")
-    parser.add_argument("--smoke", action="store_true", help="coarse ends only, one repeat")
+    parser = study.command_line(__doc__)
     options = parser.parse_args()
-    os.environ.setdefault("OMP_WAIT_POLICY", "passive")
     rows = []
     for case, (_, _, spacings, usual, _) in CASES.items():
         spacings = spacings[:2] if options.smoke else spacings

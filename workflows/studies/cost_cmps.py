@@ -17,7 +17,6 @@ over lattices (the spacing times 0.96 to 1.04), for what waves lose the mean: on
 Runs that are there already are read, not run again. --part K/N runs every N-th of them and writes no table, so that parts can run
 side by side or one after the other; the call without it then writes table and picture.
 """
-import argparse
 import csv
 import json
 import os
@@ -28,7 +27,8 @@ import h5py
 import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, "../../tests/support"))
+sys.path[:0] = [os.path.join(HERE, ".."), os.path.join(HERE, "../../tests/support")]
+import study  # noqa: E402
 from cmps_waves import wave_number, write_waves  # noqa: E402
 
 HEAD = "stage,case,factor,setting,error,error_least,error_most,error_is,wall_s,wall_min_s,wall_max_s,cpu_s,peak_memory_MB,steps,particles,status".split(",")
@@ -303,15 +303,11 @@ def draw(rows, path):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--bin", required=True)
-    parser.add_argument("--out", required=True)
-    parser.add_argument("--smoke", action="store_true", help="coarsest levels and short runs")
+    parser = study.command_line(__doc__)
     parser.add_argument("--repeats", type=int, default=1)
     parser.add_argument("--factor", action="append", help="this factor alone (resolution, set, or one of the factors); may be given again")
     parser.add_argument("--case", choices=list(CASES), help="this case alone")
     parser.add_argument("--part", help="K/N: every N-th run from the K-th (from 0), no table")
-    parser.add_argument("--scene", help="accepted for the common command line; cost_scene.py runs a scene's ladder")
     arguments = parser.parse_args()
     os.makedirs(arguments.out, exist_ok=True)
     write_piston(os.path.join(arguments.out, "piston.csv"))

@@ -13,7 +13,6 @@ energy dissipated (all that the water did to the blocks and they to each other),
 Factors: time step, contact law, interval between samples of the water, spheres a block (96, 48, 24 in the same outline), sleeping, and the three
 accuracies. Writes cost_dem.csv (a row a setting and statistic) and cost_dem.png.
 """
-import argparse
 import csv
 import math
 import pathlib
@@ -27,14 +26,11 @@ here = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(here.parent), str(here.parent / "plots"), str(here.parents[1] / "tests" / "support")]
 import dem_flow  # noqa: E402
 import run_folder  # noqa: E402
+import study  # noqa: E402
 from style import BLOCKS, plt  # noqa: E402
 
-arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-arguments.add_argument("--bin", type=pathlib.Path, required=True)
-arguments.add_argument("--out", type=pathlib.Path, required=True)
-arguments.add_argument("--scene", type=pathlib.Path, help="taken by other studies; not used here")
+arguments = study.command_line(__doc__)
 arguments.add_argument("--seeds", type=int, default=20)
-arguments.add_argument("--smoke", action="store_true")
 options = arguments.parse_args()
 options.out.mkdir(parents=True, exist_ok=True)
 work = options.out / "cost_dem_runs"

@@ -7,9 +7,7 @@ cost_scene.csv and cost_scene.png. Errors are differences at the gauges (boussin
 where three levels converge, else against the finest level; the column `against` says which. dem is chaotic: its error is
 the 95 % confidence half width of the mean offshore displacement over mound seeds, beside the shift of that mean.
 """
-import argparse
 import csv
-import os
 import pathlib
 import subprocess
 import sys
@@ -19,6 +17,7 @@ import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import run_folder  # noqa: E402
+import study  # noqa: E402
 
 LEVELS = ["draft", "standard", "fine"]
 COLUMNS = ["stage", "level", "error", "unit", "against", "wall_time_s", "cpu_time_s", "peak_memory_bytes", "steps",
@@ -119,16 +118,11 @@ def draw(rows, path):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--bin", required=True, type=pathlib.Path, help="folder of the programs")
-    parser.add_argument("--out", required=True, type=pathlib.Path, help="folder for runs, CSV and picture")
-    parser.add_argument("--scene", type=pathlib.Path, help="the scene; without it this study has nothing to do")
-    parser.add_argument("--smoke", action="store_true", help="draft and standard only, one seed")
+    parser = study.command_line(__doc__)
     options = parser.parse_args()
     if options.scene is None:
         print("cost_scene: no SCENE given, nothing to do")
         return
-    os.environ.setdefault("OMP_WAIT_POLICY", "passive")
     out = options.out / "cost_scene"
     out.mkdir(parents=True, exist_ok=True)
     levels = LEVELS[:2] if options.smoke else LEVELS

@@ -9,7 +9,6 @@ Writes paper_displacement.csv (a row a case and seed), paper_psi.csv (damage aga
 the paper's instants), paper_arch.csv (tensions along and across, in the middle and at the ends), paper_summary.json (what came out
 and what did not) and pictures of each.
 """
-import argparse
 import csv
 import json
 import os
@@ -24,19 +23,16 @@ here = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(here.parent))
 sys.path.insert(0, str(here.parent / "plots"))
 import run_folder  # noqa: E402
+import study  # noqa: E402
 import style  # noqa: E402
 from style import plt  # noqa: E402
 
 END, INSTANT = 11.67, 9.99  # s after waves reach the blocks: last picture and tension map of the paper
 
-arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-arguments.add_argument("--bin", type=pathlib.Path, required=True)
-arguments.add_argument("--out", type=pathlib.Path, required=True)
-arguments.add_argument("--scene", type=pathlib.Path, default=here.parent / "scenes" / "gotoh2009.toml")
+arguments = study.command_line(__doc__, here.parent / "scenes" / "gotoh2009.toml")
 arguments.add_argument("--flow", type=pathlib.Path, help="stored flow; default: beside OUT")
 arguments.add_argument("--seeds", type=int, default=5)
 arguments.add_argument("--set", action="append", default=[], help="KEY=VALUE for every run")
-arguments.add_argument("--smoke", action="store_true")
 options = arguments.parse_args()
 options.out.mkdir(parents=True, exist_ok=True)
 runs = options.out / "paper_blocks"

@@ -11,7 +11,6 @@ Writes sensitivity_dem.csv (a row a run), sensitivity_dem_summary.csv (a row a c
 condition: unwired less wired), sensitivity_dem_half.csv and sensitivity_dem.png.
 Finished runs are left alone, so that a study that was stopped goes on.
 """
-import argparse
 import csv
 import os
 import pathlib
@@ -23,16 +22,13 @@ import numpy
 here = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(here.parent), str(here.parent / "plots")]
 import run_folder  # noqa: E402
+import study  # noqa: E402
 from style import plt  # noqa: E402
 
-arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-arguments.add_argument("--bin", type=pathlib.Path, required=True)
-arguments.add_argument("--out", type=pathlib.Path, required=True)
-arguments.add_argument("--scene", type=pathlib.Path, default=here.parent / "scenes" / "gotoh2009.toml")
+arguments = study.command_line(__doc__, here.parent / "scenes" / "gotoh2009.toml")
 arguments.add_argument("--seeds", type=int, default=3)
 arguments.add_argument("--half-seeds", type=int, default=8, help="of the comparison of a wired half with its mirror image")
 arguments.add_argument("--conditions", default="", help="run only these, separated by ';'")
-arguments.add_argument("--smoke", action="store_true")
 options = arguments.parse_args()
 options.out.mkdir(parents=True, exist_ok=True)
 work = options.out / "sensitivity_dem_runs"

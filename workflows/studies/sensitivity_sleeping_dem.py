@@ -9,7 +9,6 @@ scene is run over the same flow of draft accuracy with sleeping on, with sleepin
 Written are the differences to the run with sleeping on, seed by seed (sensitivity_sleeping_dem.csv), and over seeds (.._summary.csv): mean with
 its 95 % interval, spread, and the largest single one; and a picture of them all.
 """
-import argparse
 import csv
 import math
 import os
@@ -22,15 +21,12 @@ import numpy
 here = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(here.parent), str(here.parent / "plots")]
 import run_folder  # noqa: E402
+import study  # noqa: E402
 from style import plt  # noqa: E402
 
-arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-arguments.add_argument("--bin", type=pathlib.Path, required=True)
-arguments.add_argument("--out", type=pathlib.Path, required=True)
-arguments.add_argument("--scene", type=pathlib.Path, default=here.parent / "scenes" / "gotoh2009.toml")
+arguments = study.command_line(__doc__, here.parent / "scenes" / "gotoh2009.toml")
 arguments.add_argument("--flow", type=pathlib.Path, help="stored flow of draft accuracy; default: computed")
 arguments.add_argument("--seeds", type=int, default=20)
-arguments.add_argument("--smoke", action="store_true")
 options = arguments.parse_args()
 work = options.out / "sensitivity_sleeping_dem_runs"
 work.mkdir(parents=True, exist_ok=True)

@@ -6,8 +6,6 @@ Each run is judged: stable (done, invariants hold, no wave above twice the incid
 stopped itself with a message), refused (before anything ran) or unstable (neither). Writes stability_boussinesq.csv and
 stability_boussinesq.png.
 """
-import argparse
-import os
 import pathlib
 import subprocess
 import sys
@@ -17,6 +15,7 @@ import numpy
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import run_folder  # noqa: E402
 import stability_map  # noqa: E402
+import study  # noqa: E402
 
 DEPTH, HEIGHT = 0.6, 0.15
 SCENE = f"""
@@ -52,13 +51,8 @@ def judge(options, scene, folder, spacing, courant):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--bin", required=True, type=pathlib.Path)
-    parser.add_argument("--out", required=True, type=pathlib.Path)
-    parser.add_argument("--scene", type=pathlib.Path, help="not used")
-    parser.add_argument("--smoke", action="store_true")
+    parser = study.command_line(__doc__)
     options = parser.parse_args()
-    os.environ.setdefault("OMP_WAIT_POLICY", "passive")
     out = options.out / "stability_boussinesq"
     out.mkdir(parents=True, exist_ok=True)
     scene = out / "beach.toml"

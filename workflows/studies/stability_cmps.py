@@ -9,8 +9,6 @@ reservoir within two spacings of the experiment, pressure on the reservoir's flo
 steps), noticed (the run stopped itself with a message, or says in run.json that an
 invariant does not hold), refused (before anything ran) or unstable (none of these). Writes stability_cmps.csv and stability_cmps.png.
 """
-import argparse
-import os
 import pathlib
 import subprocess
 import sys
@@ -20,6 +18,7 @@ import numpy
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import run_folder  # noqa: E402
 import stability_map  # noqa: E402
+import study  # noqa: E402
 
 HEIGHT = 0.3
 SCENE = """
@@ -76,13 +75,8 @@ def judge(options, scene, folder, over_height, factor, fine):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--bin", required=True, type=pathlib.Path)
-    parser.add_argument("--out", required=True, type=pathlib.Path)
-    parser.add_argument("--scene", type=pathlib.Path, help="not used")
-    parser.add_argument("--smoke", action="store_true")
+    parser = study.command_line(__doc__)
     options = parser.parse_args()
-    os.environ.setdefault("OMP_WAIT_POLICY", "passive")
     out = options.out / "stability_cmps"
     out.mkdir(parents=True, exist_ok=True)
     scene = out / "dam_break.toml"

@@ -5,7 +5,6 @@
 Each run is stable (at rest after 2 s, energy balance within 5 %), noticed (the run stopped by itself and said why) or unstable (neither):
 the last must not occur. Writes stability_dem.csv and stability_dem.png.
 """
-import argparse
 import csv
 import math
 import pathlib
@@ -17,13 +16,10 @@ import numpy
 here = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(here.parent), str(here.parent / "plots")]
 import run_folder  # noqa: E402
+import study  # noqa: E402
 from style import plt  # noqa: E402
 
-arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-arguments.add_argument("--bin", type=pathlib.Path, required=True)
-arguments.add_argument("--out", type=pathlib.Path, required=True)
-arguments.add_argument("--scene", type=pathlib.Path, help="taken by other studies; not used here")
-arguments.add_argument("--smoke", action="store_true")
+arguments = study.command_line(__doc__)
 options = arguments.parse_args()
 work = options.out / "stability_dem_runs"
 work.mkdir(parents=True, exist_ok=True)
