@@ -62,11 +62,12 @@ void Wires::pull(Blocks& blocks, double t, const std::vector<std::uint32_t>& whi
         const Vector arm_a = blocks.arm(a, sphere_a[k]), arm_b = blocks.arm(b, sphere_b[k]);
         const Vector between =
             blocks.position[b] + Vector(0, image_offset[k], 0) + arm_b - blocks.position[a] - arm_a;
-        const double r = between.norm();
-        if (r <= rest_length[k]) {
+        const double squared = between.squaredNorm();
+        if (squared <= rest_length[k] * rest_length[k]) {
             tension[k] = 0;
             continue;
         }
+        const double r = std::sqrt(squared);
         // r > r_max by more than the rounding of r: broken for good. At r_max it holds.
         if (r > rest_length[k] + longest_stretch + 1e-12 * r) {
             energy_of_broken += energy_at(k, r);
