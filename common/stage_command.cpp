@@ -32,7 +32,8 @@ StageCommand read_stage_command(int argc, char** argv, const StageGrammar& gramm
     CLI::App* run = app.add_subcommand("run", "simulate the scene");
     add_common(run);
     add_output(run);
-    run->add_flag("--follow", command.follow, "wait for the next upstream window instead of stopping");
+    CLI::Option* follow =
+        run->add_flag("--follow", command.follow, "wait for the next upstream window instead of stopping");
     CLI::App* check =
         app.add_subcommand("check", "validate the scene and say what would be simulated; run nothing");
     add_common(check);
@@ -44,9 +45,11 @@ StageCommand read_stage_command(int argc, char** argv, const StageGrammar& gramm
         add_output(pack);
     }
     for (CLI::App* verb : {run, check}) {
-        if (!grammar.upstream_option.empty())
-            verb->add_option(grammar.upstream_option, command.upstream,
-                             "folder with the windows of the stage before");
+        if (!grammar.upstream_option.empty()) {
+            CLI::Option* upstream = verb->add_option(grammar.upstream_option, command.upstream,
+                                                     "folder with the windows of the stage before");
+            if (verb == run) follow->needs(upstream);  // without it there is nothing to wait for
+        }
         if (grammar.has_layouts) {
             verb->add_option("--wires", command.wires, "layout file (TOML) in place of the scene's [wires]");
             verb->add_option("--from", command.from, "state or window of an earlier run to start from");

@@ -97,6 +97,8 @@ def usage_mistakes(folder):
     run("coupler", "verify", folder).expect_error(2, str(folder))
     run("coupler", "status", folder).expect_error(2, str(folder))
     run("dem", "run", changed_scene(folder, "small"), "--out", folder / "blocks", "--threads", "0").expect_error(2, "threads")
+    for program, upstream in (("cmps", "--waves"), ("dem", "--flow")):
+        run(program, "run", changed_scene(folder, "small"), "--out", folder / "alone", "--follow").expect_error(2, "--follow", upstream)
 
 
 main()
