@@ -16,19 +16,6 @@ double run_up(const Scene& scene) {
     return std::max(0.75 * h, v * std::sqrt(h / g) + 0.5 * v * v / g);
 }
 
-/// Four columns of wall that start on the bed, their face at wall_at_start().
-void add_moving_wall(const Scene& scene, std::vector<BoundaryParticle>& placed) {
-    const double l0 = scene.settings.spacing;
-    double top = highest_water(scene) + run_up(scene);
-    if (scene.tank) top = std::min(top, (*scene.tank)[3]);
-    for (int layer = 0; layer < 4; ++layer) {
-        const double x = scene.wall_at_start() - (layer + 0.5) * l0;
-        for (double z = bottom_level(scene, x) + 0.5 * l0; z < top; z += l0)
-            placed.push_back(
-                {.x = x, .z = z, .normal = {1, 0}, .body = body_moving_wall, .carries_pressure = layer == 0});
-    }
-}
-
 /// How far behind cmps.offshore the moving wall may go, m.
 double farthest_retreat(const Scene& scene) {
     if (scene.drive == Drive::none) return 0.0;
@@ -36,6 +23,32 @@ double farthest_retreat(const Scene& scene) {
     // brought back by two and a half
     const double of_waves = 2.5 * scene.settings.depth;
     return scene.drive == Drive::waves ? of_waves : std::max(0.0, -scene.piston.least);
+}
+
+/// How much deeper than where it starts the bed lies where the moving wall may go, m.
+double fall_of_bed(const Scene& scene) {
+    const double start = scene.wall_at_start(), from = scene.offshore - farthest_retreat(scene);
+    const double to = scene.offshore + (scene.drive == Drive::waves ? farthest_retreat(scene)
+                                                                    : std::max(0.0, scene.piston.most));
+    double lowest =
+        std::min({bottom_level(scene, start), bottom_level(scene, from), bottom_level(scene, to)});
+    for (const Point& p : scene.bed)
+        if (p[0] > from && p[0] < to) lowest = std::min(lowest, p[1]);
+    return bottom_level(scene, start) - lowest;
+}
+
+/// Four columns of wall that start on the bed, their face at wall_at_start(); high enough where it sinks with
+/// the ground.
+void add_moving_wall(const Scene& scene, std::vector<BoundaryParticle>& placed) {
+    const double l0 = scene.settings.spacing;
+    double top = highest_water(scene) + run_up(scene) + fall_of_bed(scene);
+    if (scene.tank) top = std::min(top, (*scene.tank)[3]);
+    for (int layer = 0; layer < 4; ++layer) {
+        const double x = scene.wall_at_start() - (layer + 0.5) * l0;
+        for (double z = bottom_level(scene, x) + 0.5 * l0; z < top; z += l0)
+            placed.push_back(
+                {.x = x, .z = z, .normal = {1, 0}, .body = body_moving_wall, .carries_pressure = layer == 0});
+    }
 }
 
 /// No water between bed and z = 0 at x.

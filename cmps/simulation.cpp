@@ -43,9 +43,12 @@ void Simulation::compose_effects() {
     if (scene_.drive == Drive::waves) add_offshore_boundary();
     if (scene_.drive == Drive::piston) {
         const auto path = std::make_shared<TimeTable>(scene_.piston_file, 2);
-        wall_ = add_effect<MovingWall>(scene_.wall_at_start(), [path](double time, double step, double) {
-            return (path->value(1, time + step) - path->value(1, time)) / step;
-        });
+        wall_ = add_effect<MovingWall>(
+            scene_.wall_at_start(),
+            [path](double time, double step, double) {
+                return (path->value(1, time + step) - path->value(1, time)) / step;
+            },
+            [this](double x) { return bottom_level(scene_, x); });
     }
     if (!scene_.gravity_file.empty())
         gravity_ = add_effect<GravityHistory>(TimeTable(scene_.gravity_file, 3));
@@ -61,18 +64,21 @@ void Simulation::switch_on(const std::string& effect) {
 }
 
 void Simulation::add_offshore_boundary() {
-    wall_ = add_effect<MovingWall>(scene_.offshore, [this](double time, double step, double x) {
-        waves_->go_to(time + 0.5 * step);
-        const double taken = absorption_ ? absorption_->velocity() : 0.0;
-        return returning_wall_velocity(waves_->mean_velocity(x) + taken, x - scene_.offshore,
-                                       scene_.return_time);
-    });
+    wall_ = add_effect<MovingWall>(
+        scene_.offshore,
+        [this](double time, double step, double x) {
+            waves_->go_to(time + 0.5 * step);
+            const double taken = absorption_ ? absorption_->velocity() : 0.0;
+            return returning_wall_velocity(waves_->mean_velocity(x) + taken, x - scene_.offshore,
+                                           scene_.return_time);
+        },
+        [this](double x) { return bottom_level(scene_, x); });
     if (scene_.has_effect("absorption"))
         absorption_ = add_effect<Absorption>(*waves_, *wall_, solid_, scene_.celerity, scene_.absorption,
                                              scene_.absorption_reach());
     if (scene_.has_effect("wall_overflow"))
-        overflow_ = add_effect<WallOverflow>(*field_, *waves_, *wall_, scene_.crest_lowering,
-                                             bottom_level(scene_, scene_.offshore), scene_.overflow_zone());
+        overflow_ =
+            add_effect<WallOverflow>(*field_, *waves_, *wall_, scene_.crest_lowering, scene_.overflow_zone());
     if (scene_.has_effect("relaxation_zone"))
         add_effect<RelaxationZone>(*waves_, *wall_, scene_.relaxation_length, scene_.relaxation_strength,
                                    scene_.return_time);

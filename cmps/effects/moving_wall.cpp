@@ -10,8 +10,12 @@ void MovingWall::begin_step(NearField& field, double time, double step) {
 }
 
 void MovingWall::end_step(NearField& field, double, double step) {
+    Particles& particles = field.particles;
+    const double before = foot();
     displacement_ += step * speed_;
-    const Particles& particles = field.particles;
+    if (const double rise = foot() - before; rise != 0)
+        for (std::size_t i = 0; i < particles.first_fluid(); ++i)
+            if (particles.body[i] == body_moving_wall) particles.z[i] += rise;
     double pressure = 0;  // of all its rows, Pa
     for (std::size_t row = 0; row < particles.walls; ++row)
         if (particles.body[particles.first_wall() + row] == body_moving_wall)

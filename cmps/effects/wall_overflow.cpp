@@ -12,19 +12,15 @@ constexpr double nothing = -1e300;
 }  // namespace
 
 WallOverflow::WallOverflow(NearField& field, WaveField& waves, const MovingWall& wall, double crest_lowering,
-                           double bottom, double zone_length)
-    : waves_(waves),
-      wall_(wall),
-      crest_lowering_(crest_lowering),
-      bottom_(bottom),
-      zone_length_(zone_length) {
+                           double zone_length)
+    : waves_(waves), wall_(wall), crest_lowering_(crest_lowering), zone_length_(zone_length) {
     const Particles& particles = field.particles;
     const double l0 = field.settings.spacing;
     const double height = waves.still_water_depth(wall.position()) - crest_lowering;
     const double rows = std::max(1.0, std::round(height / l0));
     for (std::size_t i = 0; i < particles.first_fluid(); ++i) {
         if (particles.body[i] != body_moving_wall) continue;
-        const double row = std::round((particles.z[i] - bottom) / l0 - 0.5);
+        const double row = std::round((particles.z[i] - wall.foot()) / l0 - 0.5);
         members_.push_back(i);
         part_of_height_.push_back((row + 0.5) / rows);  // above 1: not needed
     }
@@ -37,11 +33,11 @@ void WallOverflow::begin_step(NearField& field, double time, double step) {
     waves_.go_to(time + step);
     const double x = wall_.position(), l0 = field.settings.spacing;
     const double crest = waves_.surface_elevation(x) - crest_lowering_;  // eq. (7)
-    const double height = std::max(crest - bottom_, l0);
-    const double parked = bottom_ - 2.0 * (field.settings.kernel_radius_ratio + 4.0) * l0;
+    const double bottom = wall_.foot(), height = std::max(crest - bottom, l0);
+    const double parked = bottom - 2.0 * (field.settings.kernel_radius_ratio + 4.0) * l0;
     for (std::size_t m = 0; m < members_.size(); ++m) {
         const double part = part_of_height_[m];
-        field.particles.z[members_[m]] = part < 1.0 ? bottom_ + part * height : parked - part * height;
+        field.particles.z[members_[m]] = part < 1.0 ? bottom + part * height : parked - part * height;
     }
 }
 

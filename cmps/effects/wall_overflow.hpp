@@ -13,10 +13,9 @@ namespace cmps {
 
 class WallOverflow final : public Effect {
  public:
-    /// `crest_lowering`: h_of, m. `bottom`: level of the bed at the wall, m. `zone_length`: of the reach
-    /// ahead of the wall where water is put back, m.
+    /// `crest_lowering`: h_of, m. `zone_length`: of the reach ahead of the wall where water is put back, m.
     WallOverflow(NearField& field, WaveField& waves, const MovingWall& wall, double crest_lowering,
-                 double bottom, double zone_length);
+                 double zone_length);
     std::string name() const override { return "wall_overflow"; }
     void begin_step(NearField& field, double time, double step) override;
     void end_step(NearField& field, double time, double step) override;
@@ -32,7 +31,7 @@ class WallOverflow final : public Effect {
     static double free_level(const Particles& particles, double x, double z, double distance);
     WaveField& waves_;
     const MovingWall& wall_;
-    double crest_lowering_, bottom_, zone_length_;
+    double crest_lowering_, zone_length_;
     std::vector<std::size_t> members_;    // boundary particles of the wall
     std::vector<double> part_of_height_;  // their level, of the wall's height
     std::vector<std::int32_t> waiting_;   // identities

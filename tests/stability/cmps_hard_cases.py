@@ -159,6 +159,33 @@ particle_spacing = 0.025
         expect(abs(height - first) < 0.006, f"piston, {name}: range of levels {height:.4f} m, {first:.4f} with the bed at -0.4 m (bound 6 mm: a quarter of a spacing)")
 
 
+def wall_on_a_slope():
+    """Pistons that come off ground which falls below them: the wall stands on it, and no water gets under."""
+    t = np.arange(0, 3.2, 0.02)
+    for slope, way in ((0.3, -0.3), (-0.3, 0.3), (0.3, 0.3)):
+        path = os.path.join(FOLDER, "slope.csv")
+        with open(path, "w") as file:
+            file.write("t, x\n" + "".join(f"{at:.2f}, {0.5 * way * (1 - np.cos(np.pi * np.clip(at / 1.5, 0, 1))):.6f}\n" for at in t))
+        run = Run("slope", f"""
+title = "slope"
+[time]
+end = 3.0
+window = 1.0
+[flume]
+bed = [[-2.0, {-0.4 - 2 * slope}], [0.7, {-0.4 + 0.7 * slope}], [6.0, {-0.4 + 0.7 * slope}]]
+[cmps]
+drive = "piston"
+piston_file = "{path}"
+offshore = 0.0
+onshore = 3.0
+particle_spacing = 0.02
+""")
+        name = f"piston by {way:+g} m on a slope of {slope:+g}"
+        if sound(run, name):
+            drift = run.invariant("largest_mass_drift")
+            expect(drift < 0.01, f"{name}: largest drift of volume {drift:.4f} (bound 0.01: a spacing of water is 0.05; 0.16 and 0.22 were lost under a wall that kept its level)")
+
+
 def acute_corner():
     scene = """
 title = "water column on a wedge of 30 degrees"
@@ -282,7 +309,7 @@ def notices():
     expect(hasty.status == 0 and change > 0.145 and "pressure_change_per_step" in hasty.messages, f"steps too long for what they resolve: pressure changes by {change:.3f} of itself a step, says: {hasty.messages.strip()[:110]}")
 
 
-for case in (still_water, dam_break, isolated_drops, sloshing, full_box, fleeing_wall, driven_by_piston, acute_corner, sharp_edges, time_steps, almost_nothing,
+for case in (still_water, dam_break, isolated_drops, sloshing, full_box, fleeing_wall, driven_by_piston, wall_on_a_slope, acute_corner, sharp_edges, time_steps, almost_nothing,
              overflow, overturning, notices):
     case()
 finish()
