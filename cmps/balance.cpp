@@ -37,12 +37,14 @@ double Balance::energy(const NearField& field) const {
 /// Potential energy of the water standing at its depth, J per m of width.
 double Balance::energy_scale() const {
     const Settings& settings = scene_.settings;
-    return 0.5 * settings.pressure.density * 9.81 * settings.depth * settings.spacing * settings.spacing *
+    const double weight = std::hypot(settings.gravity_x, settings.gravity_z);
+    const double g = weight > 0 ? weight : 9.81;  // water that weighs nothing is measured as if it did
+    return 0.5 * settings.pressure.density * g * settings.depth * settings.spacing * settings.spacing *
            static_cast<double>(initial_fluid_);
 }
 
-/// Volume is that of the surface profile, against the particles that are in the water: what compression or
-/// voids have cost.
+/// Volume is that of the surface profile, against the particles that stand in its reach: what compression or
+/// voids have cost. Water that has gone over the structure is beyond it.
 void Balance::update(const NearField& field, double wall, const Work& work) {
     const Particles& particles = field.particles;
     in_solid_ = 0, outside_ = 0;
@@ -57,10 +59,15 @@ void Balance::update(const NearField& field, double wall, const Work& work) {
     energy_gain_ = (energy(field) - initial_energy_ - work.net) / scale;
     largest_energy_gain_ = std::max(largest_energy_gain_, energy_gain_);
     if (initial_volume_ <= 0) return;
-    const double volume = volume_by_surface(particles, solid_, settings.spacing, wall,
-                                            end_of_water(scene_, solid_), lowest_bottom(scene_));
-    const double expected =
-        initial_volume_ * static_cast<double>(particles.fluid) / static_cast<double>(initial_fluid_);
+    const double end = end_of_water(scene_, solid_);
+    const double volume =
+        volume_by_surface(particles, solid_, settings.spacing, wall, end, lowest_bottom(scene_));
+    const auto beyond =
+        std::count_if(particles.x.begin() + static_cast<std::ptrdiff_t>(particles.first_fluid()),
+                      particles.x.end(), [&](double x) { return x > end; });
+    const double expected = initial_volume_ *
+                            (static_cast<double>(particles.fluid) - static_cast<double>(beyond)) /
+                            static_cast<double>(initial_fluid_);
     volume_drift_ = volume / expected - 1.0;
     largest_volume_drift_ = std::max(largest_volume_drift_, std::abs(volume_drift_));
 }
