@@ -47,7 +47,8 @@ Crest CrestSpeed::fastest(const Particles& particles, double x0, double x1) {
         const double depth = surface - column[bottom].lowest + 0.5 * spacing_;
         if (surface < still_level_ + least_crest * spacing_ || depth < least_depth * spacing_) continue;
         const double speed = std::hypot(crest.u, crest.w) / crest.count;
-        const double celerity = period_ > 0 ? phase_speed(period_, depth) : std::sqrt(9.81 * depth);
+        const double celerity =
+            period_ > 0 ? phase_speed(period_, depth, gravity_) : std::sqrt(gravity_ * depth);
         if (speed > found.speed_over_celerity * celerity)
             found = {speed / celerity, x0 + (static_cast<double>(c) + 0.5) * width};
     }

@@ -18,9 +18,10 @@ struct Crest {
 
 class CrestSpeed {
  public:
-    /// `still_level`: of the water's surface before waves came, m; `period`: of the waves, s, 0: long.
-    CrestSpeed(double spacing, double still_level, double period)
-        : spacing_(spacing), still_level_(still_level), period_(period) {}
+    /// `still_level`: of the water's surface before waves came, m; `period`: of the waves, s, 0: long;
+    /// `gravity`: m/s2.
+    CrestSpeed(double spacing, double still_level, double period, double gravity = 9.81)
+        : spacing_(spacing), still_level_(still_level), period_(period), gravity_(gravity) {}
     /// The crest between x0 and x1 (m) whose water comes nearest to outrunning it.
     Crest fastest(const Particles& particles, double x0, double x1);
 
@@ -29,7 +30,7 @@ class CrestSpeed {
         int count = 0;
         double u = 0, w = 0, lowest = 1e300, highest = -1e300;
     };
-    double spacing_, still_level_, period_;
+    double spacing_, still_level_, period_, gravity_;
     std::vector<Cell> cells_;  // by column, from the lowest water up
 };
 

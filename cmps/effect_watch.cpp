@@ -19,7 +19,9 @@ std::string note_name(std::size_t index) {
 
 EffectWatch::EffectWatch(const Scene& scene, const Solid& solid)
     : scene_(scene),
-      crests_(scene.settings.spacing, highest_water(scene), scene.wave_period),
+      crests_(scene.settings.spacing, highest_water(scene),
+              scene.drive == Drive::piston ? scene.piston.period : scene.wave_period,
+              -scene.settings.gravity_z),
       end_of_water_(end_of_water(scene, solid)),
       rear_(rear_of_structure(scene, solid)),
       watches_turbulence_(scene.drive != Drive::none && scene.settings.gravity_z < 0 &&

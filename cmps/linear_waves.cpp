@@ -5,7 +5,7 @@
 namespace cmps {
 namespace {
 
-constexpr double gravity = 9.81, two_pi = 6.283185307179586;
+constexpr double two_pi = 6.283185307179586;
 
 double group_speed(double period, double depth) {
     const double c = phase_speed(period, depth), twice = 2 * two_pi / (period * c) * depth;  // 2 k h
@@ -14,7 +14,7 @@ double group_speed(double period, double depth) {
 
 }  // namespace
 
-double phase_speed(double period, double depth) {
+double phase_speed(double period, double depth, double gravity) {
     const double omega = two_pi / period;
     double k = omega / std::sqrt(gravity * depth) + omega * omega / gravity;  // above the root
     for (int i = 0; i < 50; ++i) {  // Newton's method on omega^2 = g k tanh(k h)

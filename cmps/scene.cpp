@@ -301,7 +301,8 @@ void read_drive(const Section& section, Scene& scene, double depth) {
         scene.piston = {.start = piston->value(1, scene.start.value_or(0.0)),
                         .least = least,
                         .most = most,
-                        .fastest = piston->fastest(1)};
+                        .fastest = piston->fastest(1),
+                        .period = piston->period(1)};
     }
     scene.viscosity = section.number("viscosity", "m2/s", "kinematic; used by the effect viscosity",
                                      Range::not_negative(), 1e-6);

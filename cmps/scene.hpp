@@ -19,10 +19,12 @@ namespace cmps {
 enum class Drive { waves, piston, none };
 enum class Boundary { relaxation, paper, both };
 
-/// What the file of a piston says of its path: displacements from cmps.offshore, m, and its speed, m/s.
+/// What the file of a piston says of its path: displacements from cmps.offshore, m, its speed, m/s, and
+/// period.
 struct PistonRange {
     double start = 0;  ///< when the near field starts
     double least = 0, most = 0, fastest = 0;
+    double period = 0;  ///< in which it swings to and fro, s; 0: it does not
 };
 
 /// The stage's part of a scene.

@@ -97,6 +97,25 @@ std::array<double, 2> TimeTable::range(std::size_t column) const {
     return {*least, *greatest};
 }
 
+double TimeTable::period(std::size_t column) const {
+    const auto& values = columns_[column];
+    const auto [least, greatest] = range(column);
+    const double back = 0.1 * (greatest - least);
+    std::size_t farthest = 0, turns = 0;
+    double direction = 0, first = 0, last = 0;  // direction 0: it has not moved yet
+    for (std::size_t i = 1; i < values.size(); ++i) {
+        const double way = values[i] - values[farthest];
+        if (direction * way > 0) farthest = i;
+        if (direction * way > 0 || std::abs(way) <= back) continue;
+        if (direction != 0) {
+            last = columns_[0][farthest];
+            if (++turns == 1) first = last;
+        }
+        direction = way > 0 ? 1.0 : -1.0, farthest = i;
+    }
+    return turns < 3 ? 0.0 : 2.0 * (last - first) / static_cast<double>(turns - 1);
+}
+
 double TimeTable::fastest(std::size_t column) const {
     double rate = 0;
     for (std::size_t i = 0; i + 1 < columns_[0].size(); ++i)

@@ -22,6 +22,9 @@ class TimeTable {
     std::array<double, 2> range(std::size_t column) const;
     /// Largest mean rate of change of a column between two rows, per s.
     double fastest(std::size_t column) const;
+    /// Mean period of a column that swings to and fro, s: twice the time between its turns, those of a tenth
+    /// of its range and more; 0: it turns fewer than three times.
+    double period(std::size_t column) const;
     double first_time() const { return columns_[0].front(); }
     double last_time() const { return columns_[0].back(); }
 

@@ -135,16 +135,16 @@ def breaking():
 
 def piston():
     """A piston that pushes a bore before it, one that swings gently, and one where nothing weighs and no wave can be."""
-    def driven(name, rows, more=""):
+    def driven(name, rows, more="", depth=DEPTH, end=1.6):
         path = os.path.join(FOLDER, name + ".csv")
         with open(path, "w") as file:
             file.write("t, x\n" + "".join(f"{t:.3f}, {x:.5f}\n" for t, x in rows))
         return Run(name, f"""
 [time]
-end = 1.6
+end = {end}
 window = 0.5
 [flume]
-bed = [[-2.0, {-DEPTH}], [4.0, {-DEPTH}]]
+bed = [[-2.0, {-depth}], [4.0, {-depth}]]
 [cmps]
 drive = "piston"
 piston_file = "{path}"
@@ -160,6 +160,11 @@ particle_spacing = 0.025
     expect(bore.status == 0 and len(notes(bore)) == 1 and effect(bore, "turbulence")["on"], f"piston, bore: exit {bore.status}, {notes(bore)}")
     swing = driven("swing", np.column_stack([t, 0.04 * (1 - np.cos(2 * np.pi * t / 1.6))]))
     expect(swing.status == 0 and not notes(swing), f"piston, gentle: exit {swing.status}, {notes(swing)}")
+    # waves of 0.7 s, short for the water: their crests go at half the speed of long waves
+    t = np.arange(0, 5.0, 0.01)
+    short = [driven(f"short{stroke}", np.column_stack([t, 0.5 * stroke * np.clip(t / 1.4, 0, 1) * np.sin(2 * np.pi * t / 0.7)]), depth=0.5, end=4.0) for stroke in (0.03, 0.09)]
+    expect(short[0].status == 0 and not notes(short[0]), f"piston, short waves of a quarter of the limiting steepness: {notes(short[0])}")
+    expect(short[1].status == 0 and len(notes(short[1])) == 1 and effect(short[1], "turbulence")["on"], f"piston, short waves that break: {notes(short[1])}")
     weightless = driven("weightless", push, f"gravity = [0, 0]\nwater = [[[0, {-DEPTH}], [3, {-DEPTH}], [3, 0], [0, 0]]]\nwater_velocity = [[1.6, 0]]")
     expect(weightless.status == 0 and not notes(weightless), f"piston, no gravity: exit {weightless.status} {weightless.messages.strip()}, {notes(weightless)}")
 

@@ -28,8 +28,8 @@ cmps::Particles hump(double speed, double under = depth) {
     return particles;
 }
 
-cmps::Crest fastest(const cmps::Particles& particles, double period = 0) {
-    return cmps::CrestSpeed(l0, 0.0, period).fastest(particles, 0.0, 4.0);
+cmps::Crest fastest(const cmps::Particles& particles, double period = 0, double gravity = 9.81) {
+    return cmps::CrestSpeed(l0, 0.0, period, gravity).fastest(particles, 0.0, 4.0);
 }
 
 TEST(CrestSpeed, IsThatOfTheWaterAtTheCrestOverItsCelerity) {
@@ -47,6 +47,8 @@ TEST(CrestSpeed, TakesTheCelerityOfThePeriod) {
     const double celerity = cmps::phase_speed(period, depth + height);
     EXPECT_LT(celerity, 0.6 * std::sqrt(9.81 * (depth + height)));
     EXPECT_NEAR(fastest(hump(0.5 * celerity), period).speed_over_celerity, 0.5, 0.03);
+    // Froude's law: four times the gravity, half the period, twice the speed
+    EXPECT_NEAR(fastest(hump(celerity), 0.5 * period, 4 * 9.81).speed_over_celerity, 0.5, 0.03);
 }
 
 TEST(CrestSpeed, SprayAndThinWaterAndTroughsAreNoCrests) {
