@@ -121,6 +121,14 @@ bool read_geometry(const common::SceneFile& file, const Section& section, Scene&
     return is_sound && scene.onshore > scene.offshore && (scene.tank || !scene.bed.empty());
 }
 
+/// Particles of water, about: the structure is not taken off.
+double about_particles(const Scene& scene) {
+    double area = 0;
+    for (const Polygon& polygon : scene.water) area += std::abs(signed_area(polygon));
+    if (scene.water.empty()) area = scene.settings.depth * (scene.onshore - scene.offshore);
+    return area / (scene.settings.spacing * scene.settings.spacing);
+}
+
 void read_numerics(const common::SceneFile& file, const Section& section, Scene& scene, double depth) {
     Settings& settings = scene.settings;
     const Level level = level_of(file.accuracy());
@@ -139,12 +147,8 @@ void read_numerics(const common::SceneFile& file, const Section& section, Scene&
             fmt::format(
                 "{:g} m is too coarse: the water is {:g} m deep, at least three particles must stand in it",
                 settings.spacing, depth));
-    double area = depth * (scene.onshore - scene.offshore);
-    if (!scene.water.empty()) {
-        area = 0;
-        for (const Polygon& polygon : scene.water) area += std::abs(signed_area(polygon));
-    }
-    const double particles = area / (settings.spacing * settings.spacing);
+    settings.depth = depth;
+    const double particles = about_particles(scene);
     if (!scene.water.empty() && particles < 0.5)
         section.problem("water", fmt::format("holds {:.2g} particles of {:g} m: no water at all", particles,
                                              settings.spacing));
@@ -152,7 +156,6 @@ void read_numerics(const common::SceneFile& file, const Section& section, Scene&
         section.problem("particle_spacing", fmt::format("{:g} m makes about {:.1e} particles; at most {:.0e} "
                                                         "fit into the memory of a machine",
                                                         settings.spacing, particles, most_particles));
-    settings.depth = depth;
     settings.fall = scene.tank
                         ? std::hypot((*scene.tank)[1] - (*scene.tank)[0], (*scene.tank)[3] - (*scene.tank)[2])
                         : depth;
@@ -262,6 +265,15 @@ void read_drive(const Section& section, Scene& scene, double depth) {
     scene.piston_file = section.file("piston_file", "CSV: t, displacement of the wall from cmps.offshore",
                                      scene.drive == Drive::piston);
     scene.gravity_file = section.file("gravity_file", "CSV: t, gx, gz", false);
+    constexpr double wave_gravity = 9.81;  // of boussinesq
+    const Settings& settings = scene.settings;
+    if (scene.drive == Drive::waves &&
+        std::hypot(settings.gravity_x, settings.gravity_z + wave_gravity) > 0.01 * wave_gravity)
+        section.problem("gravity", fmt::format("[{:g}, {:g}] is not that of the waves that come in, [0, "
+                                               "-9.81]: only tanks and pistons may have another",
+                                               settings.gravity_x, settings.gravity_z));
+    if (scene.drive != Drive::waves && !scene.tank && settings.gravity_z > 0)
+        section.problem("gravity", "z is up: water would fall out of the flume; [0, -9.81] points down");
     const auto piston = read_table(section, "piston_file", scene.piston_file, 2);
     read_table(section, "gravity_file", scene.gravity_file, 3);
     if (!scene.piston_file.empty() && scene.drive != Drive::piston)
@@ -273,6 +285,10 @@ void read_drive(const Section& section, Scene& scene, double depth) {
     scene.crest_lowering = section.number(
         "crest_lowering", "m", "h_of of eq. (7): how far the wall's crest stays below the waves' surface",
         Range::not_negative(), 0.19 * depth);
+    if (scene.crest_lowering >= depth)
+        section.problem("crest_lowering",
+                        fmt::format("{:g} m leaves nothing of the wall in water {:g} m deep: less than that",
+                                    scene.crest_lowering, depth));
     scene.relaxation_length = section.number("relaxation_length", "m", "of the zone behind the wall",
                                              Range::positive(), 3.0 * depth);
     scene.relaxation_strength =
@@ -313,6 +329,13 @@ void read_drive(const Section& section, Scene& scene, double depth) {
 void read_output(const common::SceneFile& file, const Section& section, Scene& scene) {
     scene.particles_interval =
         section.number("particles_interval", "s", "between stored particle pictures", Range::positive(), 0.1);
+    const double pictures = std::min(scene.time.window, scene.time.end) / scene.particles_interval + 1;
+    const double particles = about_particles(scene);
+    if (particles <= most_particles && 2 * particles * pictures > most_window_values)
+        section.problem("particles_interval",
+                        fmt::format("{:g} s: some {:.0f} particles and {:.2g} pictures in a window; at most "
+                                    "{:.1g} values fit into one",
+                                    scene.particles_interval, particles, pictures, most_window_values));
     // A particle takes as long to arrive as water takes to cross it. At the celerity that is 2.5 of the
     // longest steps; what is shorter tells of particles, not of water.
     const Settings& settings = scene.settings;
