@@ -345,16 +345,15 @@ void NearField::check(double time, double step) const {
     const double height = std::max({settings.depth, settings.fall, settings.spacing});
     const double limit = 5.0 * (std::sqrt(2.0 * std::max(g, 1.0) * height) + first_speed_) + 5.0;
     if (largest_speed_ < limit) return;
-    std::size_t worst = particles.first_fluid();
-    for (std::size_t i = worst; i < particles.size(); ++i)
-        if (!(std::hypot(particles.u[i], particles.w[i]) <=
-              std::hypot(particles.u[worst], particles.w[worst])))
-            worst = i;
+    const auto speed = [&](std::size_t i) { return std::hypot(particles.u[i], particles.w[i]); };
+    std::size_t worst = particles.first_fluid();  // the first that is no number, or the fastest
+    for (std::size_t i = worst; i < particles.size() && !std::isnan(speed(worst)); ++i)
+        if (!(speed(i) <= speed(worst))) worst = i;
     throw common::RunError(
         fmt::format("unstable at t = {:.4f} s (step {} of {:.2e} s): particle {} at ({:.3f}, {:.3f}) m moves "
                     "at {:.3g} m/s, limit {:.3g}",
                     time + step, counts.steps, step, particles.identity[worst], particles.x[worst],
-                    particles.z[worst], std::hypot(particles.u[worst], particles.w[worst]), limit));
+                    particles.z[worst], speed(worst), limit));
 }
 
 }  // namespace cmps

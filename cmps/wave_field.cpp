@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "common/errors.hpp"
@@ -38,6 +39,9 @@ WaveField::WaveField(common::WindowReader& reader, double x0, double x1, double 
     : reader_(reader), end_(end) {
     const common::Window& window = reader_.first();
     const auto x = window.at("/x").as_double(), depth = window.at("/still_water_depth").as_double();
+    if (std::adjacent_find(x.begin(), x.end(), std::greater_equal<>()) != x.end())
+        throw common::InputError(
+            fmt::format("{}: dataset /x does not increase", reader_.path_of(0).string()));
     if (x.size() < 4 || x.front() > x0 || x.back() < x1)
         throw common::InputError(fmt::format(
             "the wave windows cover x = {:g} to {:g} m; the moving wall and its zone need {:g} to {:g} m "
@@ -76,6 +80,11 @@ bool WaveField::receive_next() {
     if (!window) return false;
     const auto time = window->at("/time").as_double();
     const auto eta = window->at("/surface_elevation").as_double(), u = window->at("/velocity").as_double();
+    if (time.empty() || time.front() > window->t_begin + time_slack ||
+        time.back() < window->t_end - time_slack)
+        throw common::InputError(
+            fmt::format("{}: dataset /time does not reach from t_begin = {:g} s to t_end = {:g} s",
+                        reader_.path_of(next_index_).string(), window->t_begin, window->t_end));
     const std::size_t width = window->at("/x").size(), nodes = x_.size();
     for (std::size_t k = 0; k < time.size(); ++k) {
         if (!samples_.empty() && time[k] <= samples_.back().time + time_slack) continue;  // shared by windows

@@ -2,6 +2,8 @@
 import os
 import subprocess
 
+import h5py
+
 from cmps_program import FOLDER, PROGRAM, expect, finish
 from cmps_waves import write_waves
 
@@ -41,6 +43,12 @@ elsewhere = folder_of_waves("elsewhere", 0.06, 1.65, 0.4, 2, 8, 4.0, window=1.0)
 short = folder_of_waves("short", 0.06, 1.65, 0.4, 24, 30, 2.0, window=1.0)
 deeper = folder_of_waves("deeper", 0.06, 1.65, 0.5, 24, 30, 4.0, window=1.0)
 flat = folder_of_waves("flat", 1e-7, 1.65, 0.4, 24, 30, 4.0, window=1.0)
+twice = folder_of_waves("twice", 0.06, 1.65, 0.4, 24, 34, 4.0, window=1.0)  # a place given twice
+cut = folder_of_waves("cut", 0.06, 1.65, 0.4, 24, 34, 4.0, window=1.0)  # samples that end before their window
+with h5py.File(os.path.join(twice, "window_000000.h5"), "r+") as file:
+    file["x"][30] = file["x"][29]
+with h5py.File(os.path.join(cut, "window_000000.h5"), "r+") as file:
+    file["time"][-1] = 0.99
 backwards = os.path.join(FOLDER, "backwards.csv")
 with open(backwards, "w") as file:
     file.write("t,x\n0.0,0.0\n1.0,0.1\n0.5,0.2\n")
@@ -123,6 +131,8 @@ cases = [
     ("elsewhere", elsewhere, {}, "cover x"),
     ("short", short, {}, "end at t = 2"),
     ("deeper", deeper, {}, "/still_water_depth is 0.5 m at x = 24.35 m, where flume.bed of the scene leaves 0.4 m"),
+    ("twice", twice, {}, "twice/window_000000.h5: dataset /x does not increase"),
+    ("cut", cut, {}, "cut/window_000000.h5: dataset /time does not reach from t_begin = 0 s to t_end = 1 s"),
     ("flat", flat, {}, "the waves never reach cmps.offshore"),
     ("nowhere", os.path.join(FOLDER, "nothing"), {}, "no such folder"),
     ("no_waves", None, {}, "--waves DIR is needed"),
