@@ -167,7 +167,8 @@ void decide_effects(const common::SceneFile& file, Scene& scene) {
                crest <= 0           ? "no structure keeps still water back"
                : crest >= reachable ? fmt::format("crest at {:.2f} m is out of reach", crest)
                : blocks             ? fmt::format("crest at {:.2f} m can be reached", crest)
-                                    : "cmps.water says where water stands");
+                                    : "cmps.water says where water stands",
+               crest > 0);
     scene.crest_is_out_of_reach =
         basin_is_automatic && crest >= reachable && scene.water.empty() && !scene.tank;
 }

@@ -78,7 +78,7 @@ Solid make_solid(const Scene& scene) {
     Solid solid;
     // bed below the wall wherever it goes; three times the way of one that waves move
     const double behind = std::max(7.5 * scene.settings.depth, farthest_retreat(scene) + 2 * thick);
-    double x0 = scene.offshore - behind, x1 = scene.onshore, low = 0, high = 1e3;
+    double x0 = scene.offshore - behind, x1 = scene.onshore, low = 0, high = 0;
     if (scene.tank) {
         const auto [a, b, c, d] = *scene.tank;
         const bool has_piston = scene.drive == Drive::piston;  // in place of the offshore wall
@@ -126,7 +126,8 @@ double highest_water(const Scene& scene) {
 }
 
 double out_of_reach(const Scene& scene) {
-    return scene.tank ? 1e3 : highest_water(scene) + 2.0 * scene.settings.depth;
+    if (scene.tank) return (*scene.tank)[3] + 6.0 * scene.settings.spacing;  // its lid is four layers thick
+    return highest_water(scene) + 2.0 * scene.settings.depth;
 }
 
 double end_of_water(const Scene& scene, const Solid& solid) {

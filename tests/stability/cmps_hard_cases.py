@@ -74,6 +74,16 @@ def dam_break():
         expect(gain < 0.02, f"dam break: largest energy gain {gain:.4f} (bound 0.02)")
 
 
+def high_above_the_sea():
+    """Levels count from wherever the user's zero is: a tank at 1200 m has walls and a lid as any other."""
+    for level in (0, 1200):
+        box = [0, 1.0, level, level + 0.6]
+        run = Run("high", tank(0.8, box, rectangle(0, 0.3, level, level + 0.3), 0.02))
+        if sound(run, f"tank at {level} m"):
+            energy = run.invariant("energy_gain")
+            expect(-0.3 < energy < 0, f"tank at {level} m: energy {energy:.3f} of rho g h / 2 after the impact (bounds -0.3, 0: lattices of it have -0.20 to -0.22)")
+
+
 def isolated_drops():
     drops = "[[[0.10, 0.50], [0.13, 0.50], [0.13, 0.53], [0.10, 0.53]], [[0.30, 0.60], [0.31, 0.60], [0.31, 0.70], [0.30, 0.70]]]"
     run = Run("drops", tank(0.25, [0, 0.5, 0, 1.0], drops, 0.01, more="particles_interval = 0.05"))
@@ -309,7 +319,7 @@ def notices():
     expect(hasty.status == 0 and change > 0.145 and "pressure_change_per_step" in hasty.messages, f"steps too long for what they resolve: pressure changes by {change:.3f} of itself a step, says: {hasty.messages.strip()[:110]}")
 
 
-for case in (still_water, dam_break, isolated_drops, sloshing, full_box, fleeing_wall, driven_by_piston, wall_on_a_slope, acute_corner, sharp_edges, time_steps, almost_nothing,
+for case in (still_water, dam_break, high_above_the_sea, isolated_drops, sloshing, full_box, fleeing_wall, driven_by_piston, wall_on_a_slope, acute_corner, sharp_edges, time_steps, almost_nothing,
              overflow, overturning, notices):
     case()
 finish()
