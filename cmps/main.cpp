@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <stdexcept>
 
 #include "cmps/effect_rules.hpp"
 #include "cmps/expected_error.hpp"
@@ -123,13 +124,17 @@ int check(const common::StageCommand& command, const common::SceneFile& file, co
 }
 
 void restore(cmps::Simulation& simulation, const common::OutputFolder& folder) {
+    const auto refuse = [&](const std::string& what) {
+        throw common::InputError(
+            fmt::format("{}: {}: another version of cmps wrote it; without --resume the run begins anew",
+                        (folder.path() / "state.h5").string(), what));
+    };
     try {
         simulation.restore(folder.state());
     } catch (const common::InputError& error) {
-        throw common::InputError(
-            fmt::format("{}: {}: another version of cmps wrote it; without --resume the "
-                        "run begins anew",
-                        (folder.path() / "state.h5").string(), error.what()));
+        refuse(error.what());
+    } catch (const std::out_of_range&) {
+        refuse("a dataset has fewer values than are needed");
     }
 }
 

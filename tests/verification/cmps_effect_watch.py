@@ -81,20 +81,31 @@ def interrupted(whole, scene, waves, kills):
 
 
 def of_another_version(whole, scene, waves):
-    """A state without what the watch remembers cannot be gone on from."""
-    out = os.path.join(FOLDER, "another_version")
-    os.makedirs(out)
-    for path in whole.windows()[:-1] + [os.path.join(whole.out, name) for name in ("state.h5", "run.json")]:
-        shutil.copy(path, out)
-    with open(os.path.join(out, "run.json")) as file:
-        record = json.load(file)
-    with open(os.path.join(out, "run.json"), "w") as file:
-        json.dump({**record, "status": "failed"}, file)
-    with h5py.File(os.path.join(out, "state.h5"), "r+") as file:
+    """A state without what the watch remembers, or with fewer figures of the balance, cannot be gone on from."""
+    def forget(file):
         del file.attrs["switched_on"]
-        file.attrs["next_window"] = len(whole.windows()) - 1
-    run = Run("another_version", scene, waves=waves, resume=True)
-    expect(run.status == 2 and "state.h5: attribute switched_on is missing: another version of cmps wrote it" in run.messages, f"state of another version: exit {run.status}, {run.messages.strip()}")
+
+    def shorten(file):
+        values, kept = file["balance"][:4], dict(file["balance"].attrs)
+        del file["balance"]
+        file["balance"] = values
+        for key, value in kept.items():
+            file["balance"].attrs[key] = value
+
+    for name, change, said in (("another_version", forget, "attribute switched_on is missing"), ("short_balance", shorten, "a dataset has fewer values than are needed")):
+        out = os.path.join(FOLDER, name)
+        os.makedirs(out)
+        for path in whole.windows()[:-1] + [os.path.join(whole.out, file) for file in ("state.h5", "run.json")]:
+            shutil.copy(path, out)
+        with open(os.path.join(out, "run.json")) as file:
+            record = json.load(file)
+        with open(os.path.join(out, "run.json"), "w") as file:
+            json.dump({**record, "status": "failed"}, file)
+        with h5py.File(os.path.join(out, "state.h5"), "r+") as file:
+            change(file)
+            file.attrs["next_window"] = len(whole.windows()) - 1
+        run = Run(name, scene, waves=waves, resume=True)
+        expect(run.status == 2 and f"state.h5: {said}: another version of cmps wrote it" in run.messages, f"state of another version: exit {run.status}, {run.messages.strip()}")
 
 
 BEACH = f"[[0.0, {-DEPTH}], [27.0, {-DEPTH}], [32.0, 0.1]]"
