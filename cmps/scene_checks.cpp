@@ -52,6 +52,19 @@ void check_places(const Section& section, const Scene& scene) {
     }
 }
 
+/// Waves come onto water that stands at z = 0: at the wall it must reach from the bed to there.
+void check_water_at_wall(const Section& section, const Scene& scene) {
+    if (scene.drive != Drive::waves || scene.water.empty()) return;
+    Solid water;
+    for (const Polygon& polygon : scene.water) water.add(polygon, 0);
+    const double part = 0.5 * scene.settings.spacing, x = scene.offshore + part;
+    if (!water.contains(x, bottom_level(scene, x) + part) || !water.contains(x, -part) ||
+        water.contains(x, part))
+        section.problem("water", fmt::format("at the moving wall, x = {:g} m, it must reach from the bed up "
+                                             "to z = 0, where the waves' still water stands",
+                                             scene.offshore));
+}
+
 /// The moving wall must have its way free.
 void check_wall_path(const Section& section, const Scene& scene) {
     if (scene.drive == Drive::none) return;
@@ -164,6 +177,7 @@ void check_reach_of_gauges(const common::SceneFile& file, const Scene& scene) {
 
 void check_geometry(const common::SceneFile& file, const Section& section, const Scene& scene) {
     check_places(section, scene);
+    check_water_at_wall(section, scene);
     check_wall_path(section, scene);
     const Solid solid = make_solid(scene);
     check_narrow_places(section, scene, solid);

@@ -123,6 +123,8 @@ cases = [
     ("piston_into_structure", None, {"cmps": wall + f'drive = "piston"\npiston_file = "{piston_through}"\nstructure = [[[29.0, -0.4], [30.0, -0.4], [30.0, 0.2]]]'}, "cmps.piston_file: the moving wall at x = 29.5 m stands in the structure"),
     ("water_behind_piston", None, {"cmps": wall + f'drive = "piston"\npiston_file = "{piston_away}"\nwater = [[[25, -0.4], [31, -0.4], [31, 0], [25, 0]]]'}, "stands behind the piston, which starts at x = 25.5 m"),
     ("two_gravities", None, {"cmps": pool + f'gravity = [0, -9.81]\ngravity_file = "{shaken}"', **no_flow}, "cmps.gravity: cmps.gravity_file says it too"),
+    ("low_water", waves, {"cmps": wall + "water = [[[25, -0.4], [31, -0.4], [31, -0.15], [25, -0.15]]]"}, "cmps.water: at the moving wall, x = 25 m, it must reach from the bed up to z = 0"),
+    ("water_off_the_wall", waves, {"cmps": wall + "water = [[[25.5, -0.4], [31, -0.4], [31, 0], [25.5, 0]]]"}, "cmps.water: at the moving wall, x = 25 m"),
     ("falls_up", None, {"cmps": wall + 'drive = "none"\ngravity = [0, 9.81]'}, "cmps.gravity: z is up"),
     ("gravity_of_no_waves", waves, {"cmps": wall + "gravity = [0, -1.62]"}, "cmps.gravity: [0, -1.62] is not that of the waves that come in"),
     ("wall_of_nothing", waves, {"cmps": wall + 'boundary = "paper"\ncrest_lowering = 0.5'}, "cmps.crest_lowering: 0.5 m leaves nothing of the wall in water 0.4 m deep"),
