@@ -153,6 +153,10 @@ def shoreline_left_out_is_switched_on_when_the_bed_dries(folder):
     process.wait()
     run("boussinesq", "run", scene, "--out", folder / "again", "--quiet", "--resume", "--set", "time.window=0.25").expect_done()
     check_same_bytes(folder / "parts", folder / "again")
+    records = [run_folder.read_run(folder / name) for name in ("parts", "again")]
+    said = [record["notes"].get("effect_watch", {}) for record in records]
+    check(said[0] and said[0] == said[1], f"run.json forgot what was said before the interruption: {said}")
+    check(records[0]["effects"]["shoreline"]["reason"] == records[1]["effects"]["shoreline"]["reason"], "run.json forgot that the shoreline was switched on")
 
 
 main()
