@@ -17,8 +17,9 @@ def wave_number(period, depth, gravity=9.81):
 
 
 def write_waves(folder, height, period, depth, x0, x1, end, window=0.5, spacing=0.05, interval=0.025, ramp=2.0,
-                arrival=0.5, celerity_front=None):
-    """Progressive regular wave over a level bed; the front starts at x0 at t = `arrival` and ramps over `ramp` periods."""
+                arrival=0.5, celerity_front=None, on_one_clock=False):
+    """Progressive regular wave over a level bed; the front starts at x0 at t = `arrival` and ramps over `ramp` periods.
+    `on_one_clock`: times are multiples of `interval`, to the last bit the same in windows of any length."""
     os.makedirs(folder, exist_ok=True)
     k = wave_number(period, depth)
     omega = 2 * np.pi / period
@@ -28,6 +29,9 @@ def write_waves(folder, height, period, depth, x0, x1, end, window=0.5, spacing=
     for index in range(count):
         begin, finish = index * window, min(end, (index + 1) * window)
         t = np.linspace(begin, finish, int(round((finish - begin) / interval)) + 1)
+        if on_one_clock:
+            t = interval * np.arange(round(begin / interval), round(finish / interval) + 1)
+            begin, finish = t[0], t[-1]
         since = t[:, None] - arrival - (x[None, :] - x0) / front
         envelope = np.clip(since / (ramp * period), 0, 1)
         envelope = envelope * envelope * (3 - 2 * envelope)

@@ -90,7 +90,7 @@ spacing = 0.1
 interval = 0.02
 """
 for window in (0.25, 1.0):
-    write_waves(os.path.join(FOLDER, f"waves{window}"), 0.1, 1.65, 0.4, 24, 30, 4.0, window=window)
+    write_waves(os.path.join(FOLDER, f"waves{window}"), 0.1, 1.65, 0.4, 24, 30, 4.0, window=window, on_one_clock=True)
 driven = Run("driven", flume.format(window=5.0), waves=os.path.join(FOLDER, "waves1.0"))
 expect(driven.status == 0, f"waves: exit {driven.status} {driven.messages.strip()}")
 for waves, window in ((0.25, 0.05), (1.0, 0.333), (0.25, 1.0)):
