@@ -16,8 +16,8 @@ struct Row {
 };
 
 /// The ladder of workflows/studies/cost_cmps.py as measured with the default schemes: rms over five
-/// lattices: what one run may expect, for a wave's figure scatters by as much as it is. That of waves over
-/// two studies, for the same reason.
+/// lattices: what one run may expect, for a wave's figure scatters by as much as it is; that of waves over
+/// this study and the one before it.
 constexpr std::array<Row, 7> ladder = {{
     {8, {.floor_pressure = 0.0177, .levels = 0.027, .wave_height = 0.121}},
     {12, {.floor_pressure = 0.0134, .levels = 0.025, .wave_height = 0.033}},

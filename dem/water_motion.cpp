@@ -81,12 +81,6 @@ inline void FlowGrid::interpolate(double x, double z, double (&value)[padded_fie
                    above * ((1 - right) * high[f] + right * high[f + fields]);
 }
 
-WaterSample FlowGrid::at(const Vector& point) const {
-    double value[padded_fields];
-    interpolate(point.x(), point.z(), value);
-    return {Vector(value[0], 0, value[1]), Vector(value[2], 0, value[3]), value[4]};
-}
-
 void FlowGrid::sample(const std::vector<double>& x, const std::vector<double>& z,
                       WaterSamples& samples) const {
     auto& [velocity, acceleration, wet] = samples;

@@ -12,13 +12,6 @@
 
 namespace dem {
 
-/// Water at one place.
-struct WaterSample {
-    Vector velocity;      ///< u, m/s
-    Vector acceleration;  ///< Du/Dt, m/s^2
-    double wet;           ///< 0 (air) .. 1 (water)
-};
-
 /// A vector at some places, an array for each component.
 struct Column {
     std::vector<double> x, y, z;
@@ -53,11 +46,8 @@ struct UniformWater {
     void set_time(double t) { time = t; }
     bool is_steady() const { return acceleration.isZero(0); }
 
-    WaterSample at(const Vector& point) const {
-        return {velocity + time * acceleration, acceleration, wet_at(point.z())};
-    }
     double wet_at(double z) const { return surface ? std::clamp(0.5 - z / element_diameter, 0.0, 1.0) : 1.0; }
-    /// The same at the places (x, z), m.
+    /// At the places (x, z), m; `samples` has their size.
     void sample(const std::vector<double>& x, const std::vector<double>& z, WaterSamples& samples) const;
 };
 
@@ -89,9 +79,7 @@ class FlowGrid {
     }
     const FlowHistory& history() const { return history_; }
 
-    /// Throws std::out_of_range where nothing is known.
-    WaterSample at(const Vector& point) const;
-    /// The same at the places (x, z), m.
+    /// At the places (x, z), m; `samples` has their size. Throws std::out_of_range where nothing is known.
     void sample(const std::vector<double>& x, const std::vector<double>& z, WaterSamples& samples) const;
 
     /// Grid points from (i, j) to (end_i - 1, end_j - 1): what is interpolated anywhere in a box lies between

@@ -280,29 +280,36 @@ dem::FlowHistory linear_flow() {
     return history;
 }
 
+dem::WaterSamples water_at(const dem::FlowGrid& grid, double x, double z) {
+    dem::WaterSamples samples;
+    samples.resize(1);
+    grid.sample({x}, {z}, samples);
+    return samples;
+}
+
 TEST(FlowGrid, IsExactForBilinearFieldsAndLinearTime) {
     dem::FlowGrid grid(linear_flow());
     for (const double t : {1.0, 1.2, 1.5, 1.93, 2.0}) {
         grid.set_time(t);
         for (const double x : {0.0, 0.1, 0.77, 1.0})
             for (const double z : {-0.5, -0.33, -0.125}) {
-                const auto sample = grid.at(Vector(x, 3, z));
+                const auto sample = water_at(grid, x, z);
                 // Fields are stored in single precision.
-                EXPECT_NEAR(sample.velocity.x(), (1 + 2 * x - z) * t, 1e-6);
-                EXPECT_NEAR(sample.velocity.z(), x * z * t, 1e-6);
-                EXPECT_NEAR(sample.acceleration.x(), t, 1e-6);
-                EXPECT_NEAR(sample.wet, 0.5, 1e-7);
+                EXPECT_NEAR(sample.velocity.x[0], (1 + 2 * x - z) * t, 1e-6);
+                EXPECT_NEAR(sample.velocity.z[0], x * z * t, 1e-6);
+                EXPECT_NEAR(sample.acceleration.x[0], t, 1e-6);
+                EXPECT_NEAR(sample.wet[0], 0.5, 1e-7);
             }
     }
 }
 
 TEST(FlowGrid, OutsideIsAnErrorUnlessStill) {
     const dem::FlowGrid strict(linear_flow()), still(linear_flow(), dem::UniformWater{});
-    EXPECT_THROW(strict.at(Vector(1.01, 0, -0.3)), std::out_of_range);
-    EXPECT_EQ(still.at(Vector(1.01, 0, -0.3)).velocity, Vector(0, 0, 0));
-    EXPECT_EQ(still.at(Vector(1.01, 0, -0.3)).wet, 1);
-    EXPECT_EQ(still.at(Vector(1.01, 0, 0.3)).wet, 0);
-    EXPECT_DOUBLE_EQ(still.at(Vector(1.01, 0, -0.002)).wet, 0.75);  // a quarter of an element below z = 0
+    EXPECT_THROW(water_at(strict, 1.01, -0.3), std::out_of_range);
+    EXPECT_EQ(water_at(still, 1.01, -0.3).velocity.x[0], 0);
+    EXPECT_EQ(water_at(still, 1.01, -0.3).wet[0], 1);
+    EXPECT_EQ(water_at(still, 1.01, 0.3).wet[0], 0);
+    EXPECT_DOUBLE_EQ(water_at(still, 1.01, -0.002).wet[0], 0.75);  // a quarter of an element below z = 0
 }
 
 TEST(FluidLoads, LoadKeptForASleeperIsOffByNoMoreThanItSays) {
