@@ -138,6 +138,14 @@ def check_between(name, value, lowest, highest, unit="", why=""):
         raise Failure(f"{name} is {value:.6g} {unit}, not between {lowest:.6g} and {highest:.6g}")
 
 
+def check_figure(verdict):
+    """A published figure as figures.py judges it: `check_figure(error_figure("cmps", ...))`."""
+    holds, text = verdict
+    print(f"    {text}")
+    if not holds:
+        raise Failure(text)
+
+
 def check_invariants(folder):
     """Every invariant of run.json is within its bound, and the run says that it is done."""
     record = run_folder.read_run(folder)
