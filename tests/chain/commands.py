@@ -24,14 +24,27 @@ class Workbench:
         for name in ("scene", "first", "second"):
             (folder / f"{name}.toml").write_text("")
 
+    def call(self, *words):
+        """Runs make as typed in the bench's folder; the stages started are in the log."""
+        self.log.write_text("")
+        return subprocess.run(["make", "-C", SOURCE / "workflows", f"BIN={self.folder}/bin", "SCENE=scene.toml", "OUT=out",
+                               *words], capture_output=True, text=True, cwd=self.folder,
+                              env=environment(PWD=str(self.folder), MAKEFLAGS=""))
+
     def make(self, *words):
         """Runs make and returns the stages it started, in order: ["boussinesq run ...", ...]."""
-        self.log.write_text("")
-        ended = subprocess.run(["make", "-C", SOURCE / "workflows", f"BIN={self.folder}/bin", "SCENE=scene.toml", "OUT=out",
-                                *words], capture_output=True, text=True, cwd=self.folder,
-                               env=environment(PWD=str(self.folder), MAKEFLAGS=""))
+        ended = self.call(*words)
         check(ended.returncode == 0, ended.stderr)
+        check("overriding recipe" not in ended.stderr, ended.stderr)
         return self.log.read_text().splitlines()
+
+    def refused(self, *words):
+        """Runs make, which must start nothing and say why in one line; returns the line."""
+        ended = self.call(*words)
+        lines = ended.stderr.splitlines()
+        check(ended.returncode != 0 and len(lines) == 1, f"status {ended.returncode}: {ended.stderr}")
+        check(self.log.read_text() == "", "something ran")
+        return lines[0]
 
     def touch(self, name):
         later = max(path.stat().st_mtime for path in self.folder.rglob("*")) + 1
@@ -82,6 +95,85 @@ def a_sweep_shares_the_flow_where_it_can(folder):
     check(len(high) == 3 and f"--flow {folder}/out/waves.height=0.2/flow" in high[2], calls)
     check(all("--set accuracy=draft" in call for call in calls), calls)
     check(bench.make("-j2", "sweep", sweep, "SET=accuracy=draft") == [], "nothing changed, yet something ran")
+
+
+@test
+def a_sweep_runs_every_layout_on_every_setting(folder):
+    bench = Workbench(folder)
+    calls = bench.make("-j2", "sweep", "SWEEP=waves.height=0.1 dem.friction=0.4", "WIRES=first.toml second.toml")
+    blocks = [call for call in calls if call.startswith("dem")]
+    for setting in ("waves.height=0.1", "dem.friction=0.4"):
+        for layout in ("first", "second"):
+            words = f"--wires {folder}/{layout}.toml --out {folder}/out/{setting}/blocks_{layout} --set {setting}"
+            check(sum(words in call for call in blocks) == 1, calls)
+    check(len(blocks) == 4, calls)
+
+
+@test
+def a_folder_may_have_an_equals_sign(folder):
+    bench = Workbench(folder)
+    calls = bench.make("flow", "blocks", "OUT=a=b", "WIRES=first.toml")
+    check(programs(calls) == ["boussinesq", "cmps", "dem"], calls)
+    check(f"--wires {folder}/first.toml --out {folder}/a=b/blocks_first" in calls[2], calls)
+    check(bench.make("flow", "blocks", "OUT=a=b", "WIRES=first.toml") == [], "nothing changed, yet something ran")
+
+
+@test
+def layouts_of_one_name_are_refused(folder):
+    """Both would be run into blocks_case, or only one of them without a word."""
+    bench = Workbench(folder)
+    for name in ("a", "b"):
+        (folder / name).mkdir()
+        (folder / name / "case.toml").write_text("")
+    line = bench.refused("blocks", "WIRES=a/case.toml b/case.toml")
+    check(f"{folder}/a/case.toml {folder}/b/case.toml" in line and "blocks_case" in line, line)
+    calls = bench.make("blocks", f"WIRES=a/case.toml {folder}/a/case.toml ./a/case.toml")
+    check(len(calls) == 1, f"one layout named in three ways is one run: {calls}")
+    line = bench.refused("chain", "WIRES=first.toml second.toml")
+    check("one layout" in line and "blocks" in line, line)
+
+
+@test
+def paths_that_make_cannot_hold_are_refused_by_name(folder):
+    bench = Workbench(folder)
+    spaced = folder / "my runs"
+    spaced.mkdir()
+    (spaced / "scene.toml").write_text("")
+    for goal in ("flow", "blocks", "chain", "plots", "cost"):
+        line = bench.refused(goal, f"SCENE={spaced}/scene.toml")
+        check(f'SCENE is "{spaced}/scene.toml"' in line and "spaces" in line and "link" in line, line)
+    line = bench.refused("flow", f"OUT={spaced}/out")
+    check(f'OUT is "{spaced}/out"' in line and "spaces" in line, line)
+    line = bench.refused("blocks", f"WIRES={spaced}/scene.toml")
+    check("WIRES" in line and str(folder / "my") in line, line)
+    for mark in (":", "#", "%", "*", "'", "("):
+        line = bench.refused("flow", f"OUT={folder}/a{mark}b")
+        check(f'OUT is "{folder}/a{mark}b"' in line and f'"{mark}"' in line, line)
+    line = bench.refused("sweep", "SWEEP=dem.blocks.origin=[1,2]")
+    check("SWEEP" in line and "SET" in line, line)
+
+
+@test
+def cost_of_a_scene_is_the_study_of_that_scene_alone(folder):
+    bench = Workbench(folder)
+    ended = bench.call("-n", "cost")
+    studies = [word.rpartition("/")[2] for word in ended.stdout.split() if "/studies/" in word and word.endswith(".py")]
+    check(ended.returncode == 0 and studies == ["cost_scene.py"], ended.stdout + ended.stderr)
+    check(f"--scene {folder}/scene.toml" in ended.stdout, ended.stdout)
+    line = bench.refused("stability")
+    check("stability" in line and "SCENE" in line, line)
+    line = bench.refused("cost", "RECORD=1")
+    check("RECORD" in line, line)
+
+
+@test
+def studies_of_built_in_cases_need_no_scene(folder):
+    ended = subprocess.run(["make", "-n", "-C", SOURCE / "workflows", f"BIN={folder}", "cost", "RECORD=1"], capture_output=True,
+                           text=True, env=environment(MAKEFLAGS=""))
+    studies = [word.rpartition("/")[2] for word in ended.stdout.split() if "/studies/" in word and word.endswith(".py")]
+    check(studies == ["cost_boussinesq.py", "cost_cmps.py", "cost_dem.py"], ended.stdout + ended.stderr)
+    check("--scene" not in ended.stdout, ended.stdout)
+    check("cost_cmps*.csv" in ended.stdout and "results/studies" in ended.stdout, "RECORD=1 does not keep the tables")
 
 
 @test

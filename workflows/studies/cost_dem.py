@@ -185,19 +185,12 @@ def ensemble(*settings):
     return {key: numpy.array(values) for key, values in found.items()}, folders
 
 
-def half_width(values):
-    """Of the 95 % confidence interval of the mean; Student's t by its expansion, good to 1 % from five values on."""
-    n, z = len(values) - 1, 1.96
-    t = 12.71 if n == 1 else z + (z**3 + z) / (4 * n) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * n**2)
-    return t * values.std(ddof=1) / math.sqrt(len(values))
-
-
 reference, folders = ensemble(*FINEST)
 ways = reference.pop(TRAJECTORY)  # (seed, block, 3)
 reference[TRAJECTORY] = numpy.linalg.norm(ways, axis=2).mean(axis=1)
 for statistic, values in reference.items():
     rows.append({"stage": "dem", "case": "armour", "factor": "reference", "setting": "1.25e-5 s", "against": "itself", "statistic": statistic, "error": 0.0,
-                 "error_half_width": 0.0, "mean": values.mean(), "mean_half_width": half_width(values), **costs(folders)})
+                 "error_half_width": 0.0, "mean": values.mean(), "mean_half_width": study.half_width(values), **costs(folders)})
 STEP, INTERVAL = "dem.time_step={}", "dem.flow_interval={}"
 levels = {"draft": (2e-4, 4e-3), "standard": (1e-4, 2e-3), "fine": (5e-5, 1e-3)}
 ladders = [("rounding", [(f"friction {sign}", [*FINEST, f"dem.friction={0.3 * (1 + change):.10f}"]) for sign, change in (("up", 2e-7), ("down", -2e-7))]),
@@ -222,8 +215,8 @@ for factor, settings in ladders:
             paired = numpy.sqrt((off**2).sum(axis=2).mean(axis=1)) if statistic == TRAJECTORY else values - reference[statistic]
             scale = max(reference[statistic].mean(), 1e-12)
             rows.append({"stage": "dem", "case": "armour", "factor": factor, "setting": setting, "error": paired.mean() / scale,
-                         "error_half_width": half_width(paired) / scale, "against": "finest step, same seeds", "statistic": statistic,
-                         "mean": values.mean(), "mean_half_width": half_width(values), "spread": paired.std(ddof=1) / scale, **cost})
+                         "error_half_width": study.half_width(paired) / scale, "against": "finest step, same seeds", "statistic": statistic,
+                         "mean": values.mean(), "mean_half_width": study.half_width(values), "spread": paired.std(ddof=1) / scale, **cost})
         print(f"{factor:16s} {str(setting):10s} {cost['compute_s']:7.3f} s steps, {cost['cpu_s']:6.2f} s CPU ", "; ".join(
             f"{row['statistic']} {100 * row['error']:+.2f} +- {100 * row['error_half_width']:.2f} (spread {100 * row['spread']:.2f}) %" for row in rows[-1 - len(STATISTICS):]), flush=True)
 

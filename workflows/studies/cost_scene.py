@@ -2,10 +2,11 @@
 
     make -C workflows cost SCENE=my.toml
 
-Runs every stage of the scene at each level on the results of the level before it in the chain, and writes
+Runs every stage that the scene has at each level, on what the stage before it left at that level, and writes
 cost_scene.csv and cost_scene.png. Errors are differences at the gauges (boussinesq, cmps) against the Richardson limit
 where three levels converge, else against the finest level; the column `against` says which. dem is chaotic: its error is
-the 95 % confidence half width of the mean offshore displacement over mound seeds, beside the shift of that mean.
+the 95 % confidence half width (Student's t) of the mean offshore displacement over mound seeds, beside that mean, and its
+times are means over the seeds. SMOKE=1: two seeds, and the scene up to 60 % of its time.
 """
 import csv
 import pathlib
@@ -48,12 +49,15 @@ def difference(coarse, fine):
 
 
 def observed_order(spacings, differences):
-    """p with d = C (h^p - h_finest^p) for the two coarser levels; nan where they do not converge."""
+    """p with d = C (h^p - h_finest^p) for the two coarser of three levels; nan where they do not converge."""
     (h0, h1, h2), (d0, d1) = spacings, differences
     if not (h0 > h1 > h2 and d0 > d1 > 0):
         return float("nan")
     low, high = 0.1, 8.0
-    ratio = lambda p: (h0 ** p - h2 ** p) / (h1 ** p - h2 ** p) - d0 / d1
+
+    def ratio(p):
+        return (h0 ** p - h2 ** p) / (h1 ** p - h2 ** p) - d0 / d1
+
     if ratio(low) * ratio(high) > 0:
         return float("nan")
     for _ in range(60):
@@ -66,37 +70,32 @@ def add_errors(rows, records, spacings):
     """Fills in the errors of one stage's rows from the gauge records of its levels."""
     finest = records[-1]
     differences = [difference(record, finest) for record in records[:-1]]
-    order = observed_order(spacings, differences) if len(records) == 3 else float("nan")
+    order = observed_order(spacings, differences)
     if numpy.isfinite(order):
         constant = differences[1] / (spacings[1] ** order - spacings[2] ** order)
         for row, spacing in zip(rows, spacings):
             row.update(error=constant * spacing ** order, unit="m", against=f"Richardson limit, order {order:.2f}")
     else:
         for row, value in zip(rows, differences + [float("nan")]):
-            row.update(error=value, unit="m", against=f"level {LEVELS[len(records) - 1]}")
+            row.update(error=value, unit="m", against=f"level {LEVELS[-1]}" if row is not rows[-1] else "nothing finer")
 
 
 def row_of(stage, level, folder):
     record = run_folder.read_run(folder)
     figures = record["figures"]
     items = figures.get("cells") or figures.get("blocks") or figures.get("particles", {}).get("all")
+    particle_spacing = record["scene"]["values"].get("cmps", {}).get("particle_spacing", {}).get("value")
     return {"stage": stage, "level": level, "wall_time_s": record["wall_time"], "cpu_time_s": record["cpu_time"],
             "peak_memory_bytes": record["peak_memory"], "steps": figures.get("steps"), "items": items,
-            "spacing_m": figures.get("spacing")}
+            "spacing_m": {"boussinesq": figures.get("spacing"), "cmps": particle_spacing}.get(stage)}
 
 
-def displacement_rows(bin_folder, scene, flow, out, level, seeds):
-    """Runs dem over mound seeds; one row with the mean offshore displacement and its confidence half width."""
-    means, row = [], None
-    for seed in seeds:
-        folder = out / f"blocks_{level}_{seed}"
-        run(bin_folder / "dem", "run", scene, "--flow", flow, "--out", folder, "--set", f"accuracy={level}",
-            "--set", f"dem.mound.seed={seed}")
-        row = row_of("dem", level, folder)
-        means.append(run_folder.read_run(folder)["figures"]["damage"]["mean_offshore"])
-    spread = numpy.std(means, ddof=1) if len(means) > 1 else float("nan")
-    row.update(error=1.96 * spread / numpy.sqrt(len(means)), unit="m",
-               against=f"95 % half width over {len(means)} seeds; mean {numpy.mean(means):.5f} m")
+def displacement_row(stage, level, folders):
+    """Means of the times over the seeds' runs, and the mean offshore displacement with its confidence half width."""
+    rows = [row_of(stage, level, folder) for folder in folders]
+    means = [run_folder.read_run(folder)["figures"]["damage"]["mean_offshore"] for folder in folders]
+    row = rows[0] | {name: float(numpy.mean([row[name] for row in rows])) for name in ("wall_time_s", "cpu_time_s", "peak_memory_bytes")}
+    row.update(error=study.half_width(means), unit="m", against=f"95 % half width over {len(means)} seeds; mean {numpy.mean(means):.3g} m")
     return row
 
 
@@ -119,32 +118,31 @@ def draw(rows, path):
 
 def main():
     parser = study.command_line(__doc__)
+    parser.add_argument("--scene", type=pathlib.Path, required=True, help="the scene to cost")
     options = parser.parse_args()
-    if options.scene is None:
-        print("cost_scene: no SCENE given, nothing to do")
-        return
     out = options.out / "cost_scene"
     out.mkdir(parents=True, exist_ok=True)
-    levels = LEVELS[:2] if options.smoke else LEVELS
-    seeds = [1] if options.smoke else [1, 2, 3]
     with open(options.scene, "rb") as file:
         given = tomllib.load(file)
+    shorter = ["--set", f"time.end={0.6 * given['time']['end']:.6g}"] if options.smoke else []
     rows = {"boussinesq": [], "cmps": [], "dem": []}
-    for level in levels:
-        waves, flow = out / f"waves_{level}", out / f"flow_{level}"
-        run(options.bin / "boussinesq", "run", options.scene, "--out", waves, "--set", f"accuracy={level}")
-        rows["boussinesq"].append(row_of("boussinesq", level, waves))
-        if "cmps" not in given:
-            continue
-        run(options.bin / "cmps", "run", options.scene, "--waves", waves, "--out", flow, "--set", f"accuracy={level}")
-        rows["cmps"].append(row_of("cmps", level, flow))
+    for level in LEVELS:
+        waves, flow, settings = out / f"waves_{level}", out / f"flow_{level}", ["--set", f"accuracy={level}", *shorter]
+        if "waves" in given:
+            run(options.bin / "boussinesq", "run", options.scene, "--out", waves, *settings)
+            rows["boussinesq"].append(row_of("boussinesq", level, waves))
+        if "cmps" in given:
+            run(options.bin / "cmps", "run", options.scene, *(["--waves", waves] if "waves" in given else []), "--out", flow, *settings)
+            rows["cmps"].append(row_of("cmps", level, flow))
         if "dem" in given:
-            rows["dem"].append(displacement_rows(options.bin, options.scene, flow, out, level, seeds))
+            folders = [out / f"blocks_{level}_{seed}" for seed in ((1, 2) if options.smoke else (1, 2, 3))]
+            for seed, folder in enumerate(folders, 1):
+                run(options.bin / "dem", "run", options.scene, *(["--flow", flow] if "cmps" in given else []), "--out", folder, *settings,
+                    *(["--set", f"dem.mound.seed={seed}"] if "mound" in given["dem"] else []))
+            rows["dem"].append(displacement_row("dem", level, folders))
     for stage, name in (("boussinesq", "waves"), ("cmps", "flow")):
-        if not rows[stage]:
-            continue
-        records = [gauge_records(out / f"{name}_{level}") for level in levels]
-        add_errors(rows[stage], records, [row["spacing_m"] for row in rows[stage]])
+        if rows[stage]:
+            add_errors(rows[stage], [gauge_records(out / f"{name}_{level}") for level in LEVELS], [row["spacing_m"] for row in rows[stage]])
     every = [row for stage in rows.values() for row in stage]
     with open(options.out / "cost_scene.csv", "w", newline="") as file:
         writer = csv.DictWriter(file, COLUMNS)

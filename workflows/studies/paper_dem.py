@@ -128,9 +128,7 @@ def tension_at(folder, instant):
 
 def mean_and_spread(values):
     """Mean and half width of its 95 % confidence interval (Student's t)."""
-    values = numpy.asarray(values, float)
-    t = {2: 12.71, 3: 4.30, 4: 3.18, 5: 2.78}.get(len(values), 1.96)
-    return float(values.mean()), float(t * values.std(ddof=1) / numpy.sqrt(len(values))) if len(values) > 1 else float("nan")
+    return float(numpy.mean(values)), study.half_width(values)
 
 
 def write_csv(name, rows):

@@ -181,22 +181,13 @@ for condition in CONDITIONS:
         f" bulge {numpy.mean([r['bulge_mm'] for r in last if r['layout'] == name]):5.1f} T {max(r['largest_tension_N'] for r in last if r['layout'] == name):5.2f} N"
         f" broken {sum(r['broken_wires'] for r in last if r['layout'] == name)}" for name in ("no wires", "case 1")), flush=True)
 
-def half_width(values):
-    """Of the 95 % interval of the mean; Student's t by its expansion, good to 1 % from five values on."""
-    n, z = len(values) - 1, 1.96
-    if n < 1:
-        return float("nan")
-    t = {1: 12.71, 2: 4.30}.get(n, z + (z**3 + z) / (4 * n) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * n**2))
-    return float(t * numpy.std(values, ddof=1) / numpy.sqrt(n + 1))
-
-
 worth = []
 for condition in dict.fromkeys(row["condition"] for row in rows):
     bare, wired = ([row for row in rows if row["condition"] == condition and row["layout"] == layout] for layout in ("no wires", "case 1"))
     for key in ("linked_offshore_mm", "beyond_quarter", "mean_mm", "farthest_offshore_mm"):
         less = numpy.array([a[key] - b[key] for a, b in zip(bare, wired)], float)
         worth.append({"condition": condition, "figure": key, "seeds": len(less), "unwired": numpy.mean([row[key] for row in bare]),
-                      "wired": numpy.mean([row[key] for row in wired]), "unwired - wired": less.mean(), "half_width": half_width(less),
+                      "wired": numpy.mean([row[key] for row in wired]), "unwired - wired": less.mean(), "half_width": study.half_width(less),
                       "median": numpy.median(less), "seeds_in_which_more": int((less > 0).sum())})
     print(f"{condition:32s} unwired less wired:", "; ".join(
         f"{row['figure']} {row['unwired - wired']:.2f} +- {row['half_width']:.2f} (median {row['median']:.2f}, {row['seeds_in_which_more']} of {row['seeds']})" for row in worth[-4:]), flush=True)

@@ -10,7 +10,6 @@ Written are the differences to the run with sleeping on, seed by seed (sensitivi
 its 95 % interval, spread, and the largest single one; and a picture of them all.
 """
 import csv
-import math
 import os
 import pathlib
 import subprocess
@@ -76,14 +75,6 @@ def damage(seed, layout, variant):
     return numpy.array([(total > 0.25 * BLOCK_LENGTH).sum(), 1e3 * total.mean(), -1e3 * way[:, 0].mean(), 1e3 * total.max()])
 
 
-def half_width(values):
-    """Of the 95 % interval of the mean; Student's t by its expansion, good to 1 % from five values on."""
-    n = len(values) - 1
-    z = 1.96
-    t = 12.71 if n == 1 else z + (z**3 + z) / (4 * n) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * n**2)
-    return t * values.std(ddof=1) / math.sqrt(len(values))
-
-
 seeds = range(1, (2 if options.smoke else options.seeds) + 1)
 rows, summary, differences = [], [], {}
 for layout in LAYOUTS:
@@ -98,8 +89,8 @@ for layout in LAYOUTS:
         # Two equal runs of a seed each, so the half width of the floor is that of as many seeds.
         floor = (found["friction up"][:, k] - found["friction down"][:, k])
         summary.append({"layout": layout, "statistic": statistic, "unit": unit, "seeds": len(seeds), "mean, sleeping on": found["on"][:, k].mean(),
-                        "off - on": off.mean(), "off - on, half width": half_width(off), "off - on, spread": off.std(ddof=1),
-                        "off - on, largest": abs(off).max(), "rounding": floor.mean(), "rounding, half width": half_width(floor),
+                        "off - on": off.mean(), "off - on, half width": study.half_width(off), "off - on, spread": off.std(ddof=1),
+                        "off - on, largest": abs(off).max(), "rounding": floor.mean(), "rounding, half width": study.half_width(floor),
                         "rounding, spread": rounding.std(ddof=1), "rounding, largest": abs(rounding).max()})
         s = summary[-1]
         print(f"{layout:9s} {statistic:32s} {s['mean, sleeping on']:7.2f} {unit}; off - on {s['off - on']:+.2f} +- {s['off - on, half width']:.2f}, spread {s['off - on, spread']:.2f}, "
