@@ -8,11 +8,35 @@
 #include "boussinesq/effects/relaxation_zone.hpp"
 #include "boussinesq/waves/permanent_wave.hpp"
 #include "boussinesq/waves/solitary_wave.hpp"
+#include "common/perturbation.hpp"
 
 namespace boussinesq {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
+
+/// Rounds elevations otherwise, by up to 1e-14 of each: still water stays as still as it was.
+void perturb(std::span<double> elevation, std::int64_t seed) {
+    if (seed == 0) return;
+    for (std::size_t i = 0; i < elevation.size(); ++i)
+        elevation[i] *= 1.0 + 1e-14 * common::perturbation(seed, i);
+}
+
+/// Waves whose elevation is rounded otherwise, at every place always in the same way.
+class PerturbedWave : public IncidentWave {
+ public:
+    PerturbedWave(std::unique_ptr<IncidentWave> wave, std::int64_t seed)
+        : wave_(std::move(wave)), seed_(seed) {}
+    void at(double t, std::span<const double> x, std::span<double> elevation,
+            std::span<double> velocity) const override {
+        wave_->at(t, x, elevation, velocity);
+        perturb(elevation, seed_);
+    }
+
+ private:
+    std::unique_ptr<IncidentWave> wave_;
+    std::int64_t seed_;
+};
 
 /// Still water, with [initial] or a solitary wave in it.
 WaveState initial_state(const Scene& scene, const Bed& bed) {
@@ -38,6 +62,7 @@ WaveState initial_state(const Scene& scene, const Bed& bed) {
                               share * (waves.initial_velocity[row + 1] - waves.initial_velocity[row]);
         }
     }
+    perturb(elevation, scene.perturbation);
     for (std::size_t i = 0; i < grid.cells; ++i) {
         const std::size_t k = i + ghost_cells;
         state.depth[k] = std::max(elevation[i] - bed.level(k), 0.0);
@@ -104,7 +129,10 @@ std::vector<std::unique_ptr<StepEffect>> effects_of(const Scene& scene, const Be
     const double rate = scene.waves.period > 0 ? 1.3 * two_pi / scene.waves.period
                                                : 5.0 * std::sqrt(gravity * scene.waves.depth) /
                                                      std::max(scene.offshore_sponge, scene.shoreward_sponge);
-    if (auto wave = incident_wave(scene))
+    auto wave = incident_wave(scene);
+    if (wave && scene.perturbation != 0)
+        wave = std::make_unique<PerturbedWave>(std::move(wave), scene.perturbation);
+    if (wave)
         effects.push_back(std::make_unique<GenerationZone>(
             grid, bed,
             cubic_rates(grid, grid.offshore_end + scene.generation_length, grid.offshore_end, 5.0 * rate),

@@ -222,6 +222,7 @@ Scene read_scene(const common::SceneFile& file) {
     Scene scene{};
     file.root().text("title", "of the scene", "");
     scene.time = common::read_time(file);
+    scene.perturbation = file.perturbation();
     scene.bed = common::read_bed(file, true);
     if (scene.bed.size() < 2 || scene.bed.back()[0] <= scene.bed.front()[0]) {
         file.finish();

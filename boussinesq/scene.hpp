@@ -1,6 +1,7 @@
 /// The scene as this stage reads it: its sections, checked, turned into plain values.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,6 +38,7 @@ struct WaveSection {
 /// Everything this stage takes from the scene.
 struct Scene {
     common::TimeSection time;
+    std::int64_t perturbation = 0;  ///< seed, 0: none
     std::vector<common::Point> bed;
     std::vector<common::Gauge> gauges;
     WaveSection waves;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "common/perturbation.hpp"
 
 namespace cmps {
 namespace {
@@ -134,6 +137,19 @@ void fill_polygons(const Solid& solid, double spacing, const std::vector<Polygon
         if (velocity.empty()) continue;
         for (std::size_t i = first; i < particles.size(); ++i)
             particles.u[i] = velocity[p][0], particles.w[i] = velocity[p][1];
+    }
+}
+
+void perturb(Particles& particles, double spacing, std::int64_t seed) {
+    if (seed == 0) return;
+    constexpr double units = 2 * std::numeric_limits<double>::epsilon();
+    const auto move = [&](double& coordinate, std::uint64_t index) {
+        coordinate += (1e-12 * spacing + units * std::abs(coordinate)) * common::perturbation(seed, index);
+    };
+    for (std::size_t i = particles.first_fluid(); i < particles.size(); ++i) {
+        const auto identity = static_cast<std::uint64_t>(particles.identity[i]);
+        move(particles.x[i], 2 * identity);
+        move(particles.z[i], 2 * identity + 1);
     }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -30,5 +31,9 @@ void fill_water(const Solid& solid, double spacing, double x0, double x1, const 
 /// Fills polygons of water the same way, each at its velocity (m/s; none: at rest).
 void fill_polygons(const Solid& solid, double spacing, const std::vector<Polygon>& water,
                    const std::vector<Point>& velocity, Particles& particles);
+
+/// Moves each particle of the water by rounding: 1e-12 of the spacing and two units in the last place of its
+/// coordinates at most, as the seed and its identity say; none for the seed 0.
+void perturb(Particles& particles, double spacing, std::int64_t seed);
 
 }  // namespace cmps

@@ -386,6 +386,7 @@ bool Scene::has_effect(const std::string& name) const {
 Scene read_scene(const common::SceneFile& file) {
     Scene scene;
     scene.time = common::read_time(file);
+    scene.perturbation = file.perturbation();
     const Section section = file.section("cmps");
     bool is_sound = read_geometry(file, section, scene);
     const bool is_readable = scene.tank || !scene.bed.empty();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -32,6 +33,7 @@ struct Scene {
     common::TimeSection time;
     std::vector<common::Gauge> gauges;
     Settings settings;
+    std::int64_t perturbation = 0;  ///< seed, 0: none
 
     // geometry, m
     double offshore = 0, onshore = 0;

@@ -5,6 +5,7 @@
 #include "cmps/effects/relaxation_zone.hpp"
 #include "cmps/effects/turbulence.hpp"
 #include "cmps/effects/viscosity.hpp"
+#include "cmps/initial_state.hpp"
 #include "cmps/scene_geometry.hpp"
 #include "cmps/snapshot.hpp"
 
@@ -23,6 +24,7 @@ Simulation::Simulation(const Scene& scene, WaveField* waves, double start)
         scene_.settings, initial_particles(scene_, solid_, starts_in_waves ? waves_ : nullptr));
     constexpr int settling_sweeps = 100;  // the spread of n beside slopes has stopped falling
     field_->settle(settling_sweeps, highest_water(scene_));
+    perturb(field_->particles, scene_.settings.spacing, scene_.perturbation);
     if (scene_.has_flow) field_->path_average.emplace(scene_.flow_smoothing, field_->particles);
     compose_effects();
     watch_.emplace(scene_, solid_);

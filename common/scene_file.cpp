@@ -18,7 +18,7 @@ namespace {
 /// The sections of the contract: any other top-level table is a mistake.
 const std::vector<std::string> known_sections = {"time", "flume", "waves", "gauges",  "boussinesq",
                                                  "cmps", "dem",   "wires", "effects", "initial"};
-const std::vector<std::string> known_root_keys = {"title", "accuracy"};
+const std::vector<std::string> known_root_keys = {"title", "accuracy", "perturbation"};
 
 /// Effects of all stages: a stage reads its own and lets the others' stand.
 const std::vector<std::string> known_effects = {
@@ -130,6 +130,13 @@ Accuracy SceneFile::accuracy() const {
     return word == "draft" ? Accuracy::draft : word == "fine" ? Accuracy::fine : Accuracy::standard;
 }
 
+std::int64_t SceneFile::perturbation() const {
+    return root().integer("perturbation",
+                          "seed of a perturbation of the first state by rounding, 0: none; members of an "
+                          "ensemble differ by it",
+                          Range::between(0, 1e9), 0);
+}
+
 bool SceneFile::has_problems() const {
     return !data_->problems.empty();
 }
@@ -204,6 +211,7 @@ std::string SceneFile::digest(std::string_view upstream) const {
     for (const auto& d : data_->declarations) {
         const std::string dotted = dotted_name(d.section, d.key);
         if (dotted == "title") continue;
+        if (dotted == "perturbation" && d.value == "0") continue;  // a scene without it is the same scene
         const auto file = data_->file_digests.find(dotted);
         lines[dotted] = file != data_->file_digests.end() ? file->second : d.value;
     }

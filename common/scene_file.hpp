@@ -137,6 +137,8 @@ class SceneFile {
     bool has_section(std::string_view name) const;
     /// `accuracy`, default standard.
     Accuracy accuracy() const;
+    /// `perturbation`: member of an ensemble, 0: none (common/perturbation.hpp). In the digest unless 0.
+    std::int64_t perturbation() const;
 
     /// True once a mistake was noted: what was read since holds stand-ins, and judging it would find mistakes
     /// that the user did not make.

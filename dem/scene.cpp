@@ -212,6 +212,7 @@ Scene read_scene(const SceneFile& file, const SceneFile* layout) {
     Scene scene;
     bool dry = false;
     scene.time = common::read_time(file);
+    scene.perturbation = file.perturbation();
     const Section dem = file.section("dem");
     read_material(dem, scene);
     read_stepping(file, dem, scene);

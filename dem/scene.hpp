@@ -46,6 +46,7 @@ struct PackingRules {
 /// What a scene says about blocks.
 struct Scene {
     common::TimeSection time{};
+    std::int64_t perturbation = 0;  ///< seed of the first state's, 0: none
     double output_interval = 0.05;  ///< s
     Element element;
     Water water;

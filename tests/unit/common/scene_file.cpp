@@ -190,6 +190,26 @@ TEST(SceneFile, OverrideWithoutValueIsRefused) {
     EXPECT_THROW(SceneFile::parse("", "a.toml", two_lines), InputError);
 }
 
+TEST(SceneFile, PerturbationIsAWholeNumberAndInTheDigestUnlessZero) {
+    const auto read = [](const std::string& text) {
+        auto scene = SceneFile::parse(text, "a.toml");
+        return std::pair{scene.perturbation(), scene.digest()};
+    };
+    const auto [none, plain] = read("");
+    EXPECT_EQ(none, 0);
+    EXPECT_EQ(plain, SceneFile::parse("", "a.toml").digest()) << "a scene without it has the digest it had";
+    EXPECT_EQ(read("perturbation = 0\n").second, plain);
+    const auto [three, digest] = read("perturbation = 3\n");
+    EXPECT_EQ(three, 3);
+    EXPECT_NE(digest, plain);
+    EXPECT_NE(digest, read("perturbation = 4\n").second);
+    for (const char* wrong : {"perturbation = -1\n", "perturbation = 0.5\n", "perturbation = 'a'\n"}) {
+        const auto scene = SceneFile::parse(wrong, "a.toml");
+        scene.perturbation();
+        EXPECT_THROW(scene.finish(), InputError) << wrong;
+    }
+}
+
 TEST(SceneFile, DigestFollowsValuesNotTitleOrLayout) {
     const auto digest_of_text = [](const std::string& text, const std::string& upstream = {}) {
         const auto scene = SceneFile::parse(text, "a.toml");
