@@ -67,7 +67,7 @@ void write_data_file(const std::filesystem::path& path, const DataFile& file);
 /// type).
 DataFile read_data_file(const std::filesystem::path& path);
 
-/// Atomic replacement of a small text file (run.json, .xdmf) that can be made anew: renamed into place, not
+/// Atomic replacement of a small text file (run.json) that can be made anew: renamed into place, not
 /// synced. Throws RunError.
 void write_text_file(const std::filesystem::path& path, std::string_view content);
 

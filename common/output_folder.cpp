@@ -18,7 +18,7 @@ bool is_temporary(const std::string& name) {
 
 /// A file that a run of this program writes, and that a new run therefore replaces.
 bool is_ours(const std::string& name) {
-    return name == "state.h5" || name == "geometry.h5" || name == "run.json" || name.ends_with(".xdmf") ||
+    return name == "state.h5" || name == "geometry.h5" || name == "run.json" ||
            (name.starts_with("window_") && name.ends_with(".h5"));
 }
 
@@ -97,8 +97,8 @@ OutputFolder::OutputFolder(fs::path folder, RunIdentity identity, bool resume)
                                              : "input (what it was computed from has changed)"));
         next_window_ = saved.integer("next_window");
         start_ = Start::go_on;
-        for (std::int64_t k = 0; k < next_window_; ++k)
-            index_.add(read_window(window_path(folder_, k), identity_.stage, {}));
+        for (std::int64_t k = 0; k < next_window_; ++k)  // goes on only from windows that are all whole
+            read_window(window_path(folder_, k), identity_.stage, {});
         state_ = std::move(saved);
         return;
     }
@@ -106,34 +106,11 @@ OutputFolder::OutputFolder(fs::path folder, RunIdentity identity, bool resume)
     remove_files(folder_, is_ours);
 }
 
-OutputFolder::~OutputFolder() {
-    if (!index_is_stale_) return;
-    try {
-        write_index();
-    } catch (const RunError& error) {
-        // The windows are whole and the run's own outcome stands: say it, and let that be told.
-        fmt::print(stderr, "{}: warning: {}\n", identity_.stage, error.what());
-    }
-}
-
-void OutputFolder::write_index() {
-    index_written_ = std::chrono::steady_clock::now();
-    index_.write(folder_, identity_.stage);
-    index_cost_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - index_written_).count();
-    index_is_stale_ = false;
-}
-
 void OutputFolder::publish(Window window, DataFile state) {
     window.stage = identity_.stage;
     window.scene_digest = identity_.scene_digest;
     window.input_digest = identity_.input_digest;
     publish_window(folder_, window);
-    index_.add(window);
-    index_is_stale_ = true;
-    // The index is written whole each time and grows: a long run must not spend its time on it.
-    constexpr double largest_share = 0.02;
-    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - index_written_;
-    if (index_cost_ <= largest_share * since.count()) write_index();
     state.attributes["schema"] = fmt::format("tsunagi.{}.state/1", identity_.stage);
     state.attributes["stage"] = identity_.stage;
     state.attributes["scene_digest"] = identity_.scene_digest;

@@ -1,7 +1,6 @@
 /// A run's output folder: who may write, whether to start, go on or do nothing, and the state to go on from.
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -9,7 +8,6 @@
 #include "common/data_file.hpp"
 #include "common/folder_lock.hpp"
 #include "common/window.hpp"
-#include "common/xdmf.hpp"
 
 namespace common {
 
@@ -30,7 +28,6 @@ class OutputFolder {
 
     OutputFolder(std::filesystem::path folder, RunIdentity identity, bool resume);
     /// Brings the ParaView index up to date.
-    ~OutputFolder();
     OutputFolder(const OutputFolder&) = delete;
     OutputFolder& operator=(const OutputFolder&) = delete;
 
@@ -40,9 +37,8 @@ class OutputFolder {
     /// First window to compute: 0, or the one after the saved state.
     std::int64_t next_window() const { return next_window_; }
 
-    /// Publishes `window` (stage and digests are filled in), adds it to the ParaView index, then saves
-    /// `state` as the one to go on from. In this order: a run killed between the two computes the window
-    /// again, to the same bytes.
+    /// Publishes `window` (stage and digests are filled in), then saves `state` as the one to go on from. In
+    /// this order: a run killed between the two computes the window again, to the same bytes.
     void publish(Window window, DataFile state);
     /// geometry.h5
     void write_geometry(DataFile geometry) const;
@@ -50,16 +46,11 @@ class OutputFolder {
     const std::filesystem::path& path() const { return folder_; }
 
  private:
-    void write_index();
     std::filesystem::path folder_;
     RunIdentity identity_;
     Start start_ = Start::fresh;
     std::optional<DataFile> state_;
     std::int64_t next_window_ = 0;
-    XdmfIndex index_;
-    bool index_is_stale_ = false;
-    double index_cost_ = 0;  // s, of writing it last
-    std::chrono::steady_clock::time_point index_written_{};
     FolderLock lock_;
 };
 

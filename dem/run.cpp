@@ -10,7 +10,6 @@
 #include "common/progress.hpp"
 #include "common/window_channel.hpp"
 #include "common/window_clock.hpp"
-#include "common/xdmf.hpp"
 #include "dem/build_simulation.hpp"
 #include "dem/flow_windows.hpp"
 #include "dem/report.hpp"

@@ -220,6 +220,14 @@ def set_up_asks_an_administrator_without_root(folder):
 
 
 @test
+def set_up_takes_either_of_two_packages(folder):
+    ended = set_up(folder, "no-such-package | make\nmake | no-such-package\n", 1000)
+    check(ended.returncode == 0 and not ended.stdout + ended.stderr, ended.stdout + ended.stderr)
+    ended = set_up(folder, "no-such-package | nor-this-one\n", 1000)
+    check(ended.stderr.rstrip().endswith("--no-install-recommends no-such-package"), ended.stderr)
+
+
+@test
 def set_up_installs_what_is_missing_as_root(folder):
     ended = set_up(folder, "make\nno-such-package\n", 0)
     check(ended.returncode == 0, ended.stderr)

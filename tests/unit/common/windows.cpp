@@ -308,18 +308,6 @@ TEST(RunRecord, StatusIsReadBack) {
     EXPECT_TRUE(holds(text, "\"value\": null") && holds(text, "\"holds\": false")) << text;
 }
 
-TEST(XdmfIndex, NamesEverySampleOfEveryWindow) {
-    XdmfIndex index;
-    index.add(sample_window(0));
-    index.add(sample_window(1));
-    index.add(sample_window(1));  // a window computed again replaces itself
-    const std::string text = index.text();
-    std::size_t times = 0;
-    for (auto at = text.find("<Time "); at != std::string::npos; at = text.find("<Time ", at + 1)) ++times;
-    EXPECT_EQ(times, 6u);
-    EXPECT_TRUE(holds(text, "window_000001.h5:/surface_elevation"));
-}
-
 TEST(OutputFolder, ADamagedFinishedRunIsComputedAgain) {
     const TemporaryFolder folder;
     const RunIdentity identity{"boussinesq", "abc", ""};
