@@ -12,6 +12,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "common/build_information.hpp"
 #include "common/data_file.hpp"
 
 namespace common {
@@ -114,6 +115,7 @@ void RunRecord::write_ended(const std::string& status, const std::string& messag
 }
 
 void RunRecord::write(const std::string& status, const std::string& message) {
+    const BuildInformation& build = build_information();
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
@@ -129,7 +131,11 @@ void RunRecord::write(const std::string& status, const std::string& message) {
                    {"stage", stage_},
                    {"status", status},
                    {"message", message},
-                   {"version", TSUNAGI_VERSION},
+                   {"version", build.version},
+                   {"revision", build.revision},
+                   {"compiler", build.compiler},
+                   {"flags", build.flags},
+                   {"processor", processor_name()},
                    {"host", host_name()},
                    {"pid", ::getpid()},
                    {"begun", content_->begun},

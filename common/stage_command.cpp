@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/build_information.hpp"
 #include "common/errors.hpp"
 
 namespace common {
@@ -11,7 +12,7 @@ namespace common {
 StageCommand read_stage_command(int argc, char** argv, const StageGrammar& grammar) {
     StageCommand command;
     CLI::App app{grammar.description, grammar.program};
-    app.set_version_flag("--version", std::string(grammar.program) + " " + TSUNAGI_VERSION);
+    app.set_version_flag("--version", version_text(grammar.program));
     app.require_subcommand(1);
     app.footer("Exit status: 0 done, 1 failed while running, 2 bad input or usage, 130 after Ctrl-C.");
 

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/build_information.hpp"
 #include "common/errors.hpp"
 
 namespace coupler {
@@ -11,7 +12,7 @@ namespace coupler {
 Command read_command(int argc, char** argv) {
     Command command;
     CLI::App app{"Runs the chain waves - near field - blocks and watches over it.", "coupler"};
-    app.set_version_flag("--version", std::string("coupler ") + TSUNAGI_VERSION);
+    app.set_version_flag("--version", common::version_text("coupler"));
     app.require_subcommand(1);
     app.footer("Exit status: 0 done, 1 failed while running, 2 bad input or usage, 130 after Ctrl-C.");
 

@@ -1,0 +1,22 @@
+# Writes FILE with the revision of the sources in SOURCE, and touches it only when that changed.
+set(revision "unknown")
+find_package(Git QUIET)
+if(GIT_FOUND)
+    execute_process(COMMAND ${GIT_EXECUTABLE} -C ${SOURCE} rev-parse --short=12 HEAD
+                    OUTPUT_VARIABLE hash OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
+    if(NOT failed)
+        execute_process(COMMAND ${GIT_EXECUTABLE} -C ${SOURCE} status --porcelain --untracked-files=no
+                        OUTPUT_VARIABLE changes OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+        set(revision "${hash}")
+        if(changes)
+            string(APPEND revision "+changes")
+        endif()
+    endif()
+endif()
+set(text "#pragma once\n#define TSUNAGI_REVISION \"${revision}\"\n")
+if(EXISTS ${FILE})
+    file(READ ${FILE} before)
+endif()
+if(NOT "${before}" STREQUAL "${text}")
+    file(WRITE ${FILE} "${text}")
+endif()
