@@ -83,7 +83,19 @@ def gauge_names(folder, quantity="surface_elevation"):
     return []
 
 
-def static(folder, name):
-    """A dataset that does not change with time, from the first window."""
-    with h5py.File(window_paths(folder)[0], "r") as file:
-        return file[name][()]
+def gauge_places(folder):
+    """{gauge: x in m} as the scene in run.json has them."""
+    values = read_run(folder)["scene"]["values"]
+    places = {name: entry["value"] for name, entry in values.get("gauges", {}).items()}  # "toe" = 650
+    places |= {section.removeprefix("gauges."): entries["x"]["value"]  # "wall" = { x = 700, z = -2 }
+               for section, entries in values.items() if section.startswith("gauges.") and "x" in entries}
+    return places
+
+
+def static(folder, name, instant=-numpy.inf):
+    """A dataset without a time of its own, from the first window that ends at `instant` or later."""
+    for path in window_paths(folder):
+        with h5py.File(path, "r") as file:
+            if name in file and file.attrs["t_end"] >= instant - 1e-9:
+                return file[name][()]
+    raise KeyError(f"{folder}: no window holds {name}")

@@ -28,9 +28,31 @@ def arguments(*names):
     return [pathlib.Path(word) for word in sys.argv[1:]]
 
 
+def length_unit(largest):
+    """(factor, name) in which a length of `largest` metres reads well."""
+    return (1000, "mm") if largest < 0.1 else (100, "cm") if largest < 1 else (1, "m")
+
+
+def force_unit(largest):
+    """(factor, name) in which a force of `largest` newtons reads well."""
+    return (1, "N") if largest < 1e3 else (1e-3, "kN") if largest < 1e6 else (1e-6, "MN")
+
+
+def pressure_unit(largest):
+    """(factor, name) in which a pressure of `largest` pascals reads well."""
+    return (1, "Pa") if largest < 1e3 else (1e-3, "kPa")
+
+
+def nothing(why):
+    """Ends a plot that has nothing to show; the other pictures are not held up by it."""
+    print(f"{pathlib.Path(sys.argv[0]).stem}: {why}; no picture")
+    sys.exit(0)
+
+
 def save(figure, path):
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path)
+    plt.close(figure)
     print(path)
 
 
@@ -53,12 +75,24 @@ class BlockShapes:
     def __init__(self, geometry):
         self._shape_of = geometry["/blocks/shape"]
         self._spheres = [geometry[f"/shapes/{i}/spheres"] for i in range(self._shape_of.max() + 1)]
-        self._diameter = [float(geometry[f"/shapes/{i}/diameter"][0]) for i in range(self._shape_of.max() + 1)]
+        # One diameter for a whole shape, or one a sphere.
+        self._diameters = [numpy.broadcast_to(geometry[f"/shapes/{i}/diameter"], len(spheres)) for i, spheres in enumerate(self._spheres)]
         self.is_fixed = geometry["/blocks/fixed"] != 0
+        #: m, of the largest shape: the farthest that a sphere's surface is from a block's centre
+        self.reach = max(float((numpy.linalg.norm(spheres, axis=1) + 0.5 * diameters).max())
+                         for spheres, diameters in zip(self._spheres, self._diameters))
 
     def centres(self, block, position, orientation):
         """Sphere centres of a block at a pose, (n, 3) m."""
         return position + rotate(orientation, self._spheres[self._shape_of[block]])
 
-    def diameter(self, block):
-        return self._diameter[self._shape_of[block]]
+    def diameters(self, block):
+        """Of the spheres of a block, (n,) m."""
+        return self._diameters[self._shape_of[block]]
+
+    def all_spheres(self, positions, orientations):
+        """Centres, diameters and block numbers of the spheres of all blocks, each (n, ...)."""
+        blocks = range(len(positions))
+        centres = [self.centres(b, positions[b], orientations[b]) for b in blocks]
+        return (numpy.concatenate(centres), numpy.concatenate([self.diameters(b) for b in blocks]),
+                numpy.repeat(blocks, [len(c) for c in centres]))
