@@ -73,7 +73,12 @@ def draw_blocks(axis, instant):
 
 shown = instants()
 waters = [water_at(instant) for instant in shown]
-everywhere = numpy.concatenate([position for position, _ in waters] + structure + tank)
+water = numpy.concatenate([position for position, _ in waters])
+if structure:
+    # A few drops in the basin behind the structure do not widen the picture.
+    behind = water[:, 0] > max(polygon[:, 0].max() for polygon in structure)
+    water = water[~behind] if behind.mean() < 0.01 else water
+everywhere = numpy.concatenate([water] + structure + tank)
 (x_low, z_low), (x_high, z_high) = everywhere.min(axis=0), everywhere.max(axis=0)
 highest = numpy.percentile(numpy.concatenate([pressure for _, pressure in waters]), 99.5)
 factor, unit = style.pressure_unit(highest)
@@ -82,7 +87,7 @@ x_low, x_high, z_low, z_high = x_low - margin, x_high + margin, z_low - margin, 
 # One below the other; in two columns where the water is not much longer than high.
 columns = 1 if x_high - x_low > 3 * (z_high - z_low) else 2
 rows = -(-len(shown) // columns)
-height = 12 / columns * (z_high - z_low) / (x_high - x_low) + 0.45
+height = 11.3 / columns * (z_high - z_low) / (x_high - x_low) + 0.45
 figure, axes = plt.subplots(rows, columns, figsize=(13, max(height, 1.2) * rows + 0.5), sharex=True, sharey=True, squeeze=False)
 for axis in list(axes.flat)[len(shown):]:
     axis.set_visible(False)
