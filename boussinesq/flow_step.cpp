@@ -228,7 +228,7 @@ void FlowStep::sweep_tile(Tile& tile, const WaveState& start, double start_share
     double* q_out = out.discharge.data() + first;
     const auto update = [&](auto discharge_rate) {
         const std::size_t from = tile.begin(), to = tile.end();
-#pragma GCC ivdep
+#pragma omp simd
         for (std::size_t t = from; t < to; ++t) {
             double rate = discharge_rate(t);
             if constexpr (with_dispersion) rate += tile.depth[t] * tile.elevation_slope[t];

@@ -60,12 +60,12 @@ void reconstruct(Tile& tile, std::size_t from, std::size_t to, const FlowParamet
         gravity * flow.elevation_scale;  // of waves that small over as little water
     const double* e = tile.elevation.value;
     const double* q = tile.discharge.value;
-#pragma GCC ivdep
+#pragma omp simd
     for (std::size_t t = from; t < to; ++t) {
         tile.elevation_minus[t] = weno5(e[t - 3], e[t - 2], e[t - 1], e[t], e[t + 1], elevation_noise);
         tile.elevation_plus[t] = weno5(e[t + 2], e[t + 1], e[t], e[t - 1], e[t - 2], elevation_noise);
     }
-#pragma GCC ivdep
+#pragma omp simd
     for (std::size_t t = from; t < to; ++t) {
         const double minus = weno5(q[t - 3], q[t - 2], q[t - 1], q[t], q[t + 1], discharge_noise);
         const double plus = weno5(q[t + 2], q[t + 1], q[t], q[t - 1], q[t - 2], discharge_noise);
@@ -125,7 +125,7 @@ bool is_deep(const Tile& tile, const FlowParameters& flow) {
 void wet_fluxes(Tile& tile, const FlowParameters& flow) {
     const std::size_t from = tile.begin(), to = tile.end() + 1;
     reconstruct<false>(tile, from, to, flow);
-#pragma GCC ivdep
+#pragma omp simd
     for (std::size_t t = from; t < to; ++t) {
         const double h_minus = std::max(tile.elevation_minus[t] - tile.face_bed[t], flow.dry_depth);
         const double h_plus = std::max(tile.elevation_plus[t] - tile.face_bed[t], flow.dry_depth);

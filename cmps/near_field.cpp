@@ -13,7 +13,6 @@ namespace cmps {
 namespace {
 
 constexpr double skin_ratio = 0.35;  // of l0: a step of the Courant number 0.25 leaves the lists alone
-constexpr std::size_t serial_below = 4000;
 
 std::variant<RationalKernel, WendlandKernel> make_kernel(const Settings& settings) {
     const double radius = settings.kernel_radius_ratio * settings.spacing;
