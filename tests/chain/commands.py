@@ -129,6 +129,10 @@ def layouts_of_one_name_are_refused(folder):
     check(f"{folder}/a/case.toml {folder}/b/case.toml" in line and "blocks_case" in line, line)
     calls = bench.make("blocks", f"WIRES=a/case.toml {folder}/a/case.toml ./a/case.toml")
     check(len(calls) == 1, f"one layout named in three ways is one run: {calls}")
+    line = bench.refused("blocks", "WIRES=b/case.toml")
+    check(f"holds the run of {folder}/a/case.toml" in line and f"{folder}/out/.blocks_case" in line, line)
+    (folder / "out/.blocks_case").unlink()
+    check(len(bench.make("blocks", "WIRES=b/case.toml")) == 1, "not run after its remedy")
     line = bench.refused("chain", "WIRES=first.toml second.toml")
     check("one layout" in line and "blocks" in line, line)
 
