@@ -14,7 +14,8 @@ sys.dont_write_bytecode = True
 import run_folder  # noqa: E402
 
 
-NO_GAUGE = "no gauge of the surface stands both in the waves' record and in the near field"
+class NothingToCompare(Exception):
+    """Its text says why."""
 
 
 @dataclasses.dataclass
@@ -82,7 +83,7 @@ def value(values, section, key):
 
 
 def compare(chain, gauge=None, periods=4):
-    """Compares the last `periods` wave periods before the reflection from the structure is back at the gauge; None without one.
+    """Compares the last `periods` wave periods before the reflection from the structure is back at the gauge.
 
     The reflection is back when the front of the waves, seen at the gauge when the surface first moves by 5 % of the full
     height (`spans[0]`; nothing has come back before) or by half of it (`spans[1]`; the weak front of the reflection is
@@ -94,7 +95,7 @@ def compare(chain, gauge=None, periods=4):
     places = run_folder.gauge_places(chain / "flow")
     gauge = gauge or min(both, key=places.get, default=None)
     if gauge is None:
-        return None
+        raise NothingToCompare("no gauge of the surface is recorded by both boussinesq and cmps")
     x = float(places[gauge])
     values = run_folder.read_run(chain / "flow")["scene"]["values"]
     waves_record = run_folder.read_run(chain / "waves")
@@ -110,7 +111,7 @@ def compare(chain, gauge=None, periods=4):
     # A record of waves has no period of its own in the scene; boussinesq measures one at every gauge.
     period = value(waves_record["scene"]["values"], "waves", "period") or waves_record["figures"]["gauges"][gauge]["significant_period"]
     if len(time) < 2 or not period or time[-1] - time[0] < 2 * period:
-        return None
+        raise NothingToCompare(f"gauge {gauge} is recorded by both boussinesq and cmps over less than two wave periods")
     full_height = waves[len(waves) // 2:].max() - waves[len(waves) // 2:].min()
     per_period = round(period / (time[1] - time[0]))
     height = mean_height(waves[len(waves) // 2:], per_period)
@@ -130,11 +131,11 @@ def compare(chain, gauge=None, periods=4):
 
 
 if __name__ == "__main__":
-    link = compare(sys.argv[1])
-    if link is None:
-        print(NO_GAUGE)
-    else:
-        print(f"gauge {link.gauge}, x = {link.x:g} m, mean wave height {link.height:.3g} m")
-        for span in link.spans:
-            print(f"t = {span.begin:.2f} to {span.end:.2f} s ({span.periods:.1f} periods {span.words}): "
-                  f"RMS difference {100 * span.rms_over_height:.1f} % of it")
+    try:
+        link = compare(sys.argv[1])
+    except NothingToCompare as why:
+        sys.exit(f"link_figures: {why}")
+    print(f"gauge {link.gauge}, x = {link.x:g} m, mean wave height {link.height:.3g} m")
+    for span in link.spans:
+        print(f"t = {span.begin:.2f} to {span.end:.2f} s ({span.periods:.1f} periods {span.words}): "
+              f"RMS difference {100 * span.rms_over_height:.1f} % of it")

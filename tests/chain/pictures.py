@@ -103,6 +103,20 @@ def waves_from_a_record_have_no_period_in_the_scene(folder):
 
 
 @test
+def stages_without_a_gauge_in_common_are_told(folder):
+    """Gauges outside the near field, or records of less than two periods, are no error: there is no picture of the link."""
+    chain = folder / "chain"
+    shutil.copytree(own_breakwater(folder), chain)
+    for path in run_folder.window_paths(chain / "flow")[1:]:
+        path.unlink()
+    check(words_of(folder, "link", chain) is None, "a picture of half a wave period")
+    with h5py.File(run_folder.window_paths(chain / "flow")[0], "a") as file:
+        del file["gauges"]
+    check(words_of(folder, "link", chain) is None, "a picture of no gauge")
+    check_words(words_of(folder, "gauges", chain), "gauge toe")
+
+
+@test
 def a_near_field_alone_is_drawn(folder):
     run("cmps", "run", SCENES / "dam_break.toml", "--set", "cmps.particle_spacing=0.1", "--set", "time.end=0.5", "--out",
         folder / "flow").expect_done()

@@ -8,9 +8,10 @@ from style import plt
 import link_figures
 
 chain, picture = style.arguments("CHAIN", "PICTURE")
-link = link_figures.compare(chain)
-if link is None:
-    style.nothing(link_figures.NO_GAUGE)
+try:
+    link = link_figures.compare(chain)
+except link_figures.NothingToCompare as why:
+    style.nothing(why)
 factor, unit = style.length_unit(max(abs(link.waves).max(), abs(link.flow).max()))
 figure, (above, below) = plt.subplots(2, 1, figsize=(11, 5.2), sharex=True, height_ratios=(2, 1))
 above.plot(link.time, factor * link.waves, color=style.WAVES, label="boussinesq (incident wave)")
