@@ -166,6 +166,9 @@ def cost_of_a_scene_is_the_study_of_that_scene_alone(folder):
     check(f"--scene {folder}/scene.toml" in ended.stdout, ended.stdout)
     line = bench.refused("stability")
     check("stability" in line and "SCENE" in line, line)
+    for word in ("SET=waves.height=0.2", "WIRES=first.toml"):
+        line = bench.refused("cost", word)
+        check("SET" in line and "WIRES" in line, line)
     line = bench.refused("cost", "RECORD=1")
     check("RECORD" in line, line)
 
