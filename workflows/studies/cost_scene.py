@@ -141,7 +141,7 @@ def main():
             rows["cmps"].append(row_of("cmps", level, flow))
         if "dem" in given:
             seeds = ((1, 2) if options.smoke else (1, 2, 3)) if "mound" in given["dem"] else (None,)
-            folders = [out / f"blocks_{level}" + (f"_{seed}" if seed else "") for seed in seeds]
+            folders = [out / (f"blocks_{level}_{seed}" if seed else f"blocks_{level}") for seed in seeds]
             for seed, folder in zip(seeds, folders):
                 run(options.bin / "dem", "run", options.scene, *(["--flow", flow] if "cmps" in given else []), "--out", folder, *settings,
                     *(["--set", f"dem.mound.seed={seed}"] if seed is not None else []))
