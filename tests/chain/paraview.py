@@ -4,12 +4,16 @@ VTK's own XML readers are those that ParaView opens a .pvd with. Where ParaView 
 """
 import shutil
 import subprocess
+import sys
 import xml.etree.ElementTree
 
 import h5py
 import numpy
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLRectilinearGridReader
+try:
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLRectilinearGridReader
+except ImportError:
+    sys.exit("VTK's Python modules are missing: `workflows/set_up test` installs python3-vtk9")
 
 from harness import SCENES, SOURCE, check, environment, main, run, run_folder, test
 
