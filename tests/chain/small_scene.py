@@ -127,6 +127,21 @@ def pictures_are_drawn(folder):
 
 
 @test
+def paths_may_hold_spaces(folder):
+    """Those of programs, coupler, pictures and ParaView's files; make refuses them by name (commands.py)."""
+    spaced = folder / "my runs"
+    spaced.mkdir()
+    scene = spaced / "short flume.toml"
+    shutil.copy(SCENE, scene)
+    run("coupler", "run", scene, "--set", "time.end=2.2", "--out", spaced / "the chain").expect_done()
+    run("coupler", "verify", spaced / "the chain").expect_done()
+    for words in (["plots/gauges.py", spaced / "the chain", spaced / "gauges.png"], ["paraview.py", spaced / "the chain"]):
+        ended = subprocess.run(["/usr/bin/python3", SOURCE / "workflows" / words[0], *words[1:]], capture_output=True, text=True)
+        check(ended.returncode == 0, ended.stderr)
+    check((spaced / "gauges.png").exists() and (spaced / "the chain/paraview/blocks.pvd").exists(), "files are missing")
+
+
+@test
 def waves_without_blocks(folder):
     """A scene without [dem] is a chain of two stages."""
     text = SCENE.read_text()
