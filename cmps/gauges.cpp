@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cmps/flow_grid.hpp"
 #include "cmps/kernel.hpp"
@@ -10,6 +11,18 @@ namespace cmps {
 namespace {
 
 constexpr double pi = 3.14159265358979;
+
+/// Level of the lowest ground at x, m; what is solid from below all that faces water: the highest of it.
+double ground_level(const Solid& solid, double x) {
+    double ground = std::numeric_limits<double>::infinity();
+    for (const SurfaceSegment& segment : solid.surface()) {
+        const auto [left, right] = std::minmax(segment.from[0], segment.to[0]);
+        if (segment.normal[1] <= 0 || x < left || x > right || left == right) continue;
+        const double share = (x - segment.from[0]) / (segment.to[0] - segment.from[0]);
+        ground = std::min(ground, segment.from[1] + share * (segment.to[1] - segment.from[1]));
+    }
+    return ground;
+}
 
 }  // namespace
 
@@ -29,7 +42,7 @@ double surface_elevation(const Particles& particles, const Solid& solid, double 
             low = std::min(low, particles.z[j]), high = std::max(high, particles.z[j]);
             if (particles.is_fluid(j)) water = std::max(water, particles.z[j]);
         }
-    if (near.empty()) return 0.0;
+    if (near.empty()) return ground_level(solid, x);  // no wall particles either: behind a basin
     // the bottom of the highest free interval that water stands in; of the lowest one where all is dry
     double bottom = high, ceiling = high;
     for (const double aside :

@@ -10,6 +10,7 @@
 #include "cmps/expected_error.hpp"
 #include "cmps/forecast.hpp"
 #include "cmps/scene.hpp"
+#include "cmps/scene_checks.hpp"
 #include "cmps/scene_geometry.hpp"
 #include "cmps/simulation.hpp"
 #include "common/check_report.hpp"
@@ -119,6 +120,7 @@ int check(const common::StageCommand& command, const common::SceneFile& file, co
     lines.push_back({"memory", fmt::format("about {:.0f} MB", forecast.memory / 1e6)});
     lines.push_back({"error", cmps::expected_error_text(scene.settings.depth / scene.settings.spacing,
                                                         scene.settings.kernel_radius_ratio)});
+    for (const cmps::Remark& remark : scene.remarks) lines.push_back({"note", remark.text});
     common::print_check_report(scene.effects, lines);
     return common::exit_done;
 }
@@ -172,6 +174,10 @@ int run(const common::StageCommand& command, const common::SceneFile& file, cons
 
     const common::WindowClock clock(start, scene.time.end, scene.time.window);
     common::Progress progress("cmps", start, scene.time.end, command.quiet);
+    for (const cmps::Remark& remark : scene.remarks) {
+        record.set_note(remark.name, remark.text);
+        if (!goes_on) progress.say(remark.text);
+    }
     record.set_windows(folder.next_window());
     record.write_running();
     try {
@@ -227,6 +233,7 @@ int main(int argc, char** argv) {
         const auto file = common::SceneFile::read(command.scene, command.overrides);
         cmps::Scene scene = cmps::read_scene(file);
         cmps::decide_effects(file, scene);
+        if (!file.has_problems()) cmps::check_water_at_gauges(file, scene);
         file.finish();
         if (command.verb == common::StageCommand::Verb::check) return check(command, file, scene);
         return run(command, file, scene);

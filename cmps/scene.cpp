@@ -194,7 +194,8 @@ void read_numerics(const common::SceneFile& file, const Section& section, Scene&
     settings.pressure.density_weight =
         section.number("density_weight", "-", "gamma, weight of the density term in the source",
                        Range::between(0, 1), settings.pressure.density_weight);
-    settings.pressure.density = section.number("density", "kg/m3", "of water", Range::positive(), 1000.0);
+    settings.pressure.density =
+        common::read_water_density(file, {"cmps", "density"}, {"dem", "water_density"});
     settings.negative_pressure = section.boolean("negative_pressure", "keep pressures below zero", false);
     settings.tolerance = section.number(
         "tolerance", "-",
@@ -242,7 +243,7 @@ std::optional<TimeTable> read_table(const Section& section, const char* key,
 
 /// What [waves] says of the waves that arrive in windows: rules and the boundary need their height and
 /// period.
-void read_waves(const common::SceneFile& file, Scene& scene, double depth) {
+void read_wave_kind(const common::SceneFile& file, Scene& scene, double depth) {
     scene.celerity = std::sqrt(9.81 * depth);
     if (scene.drive != Drive::waves || !file.has_section("waves")) return;
     const Section waves = file.foreign_section("waves");
@@ -255,6 +256,39 @@ void read_waves(const common::SceneFile& file, Scene& scene, double depth) {
     if (kind == "solitary") return;
     scene.wave_period = waves.number("period", "s", "wave period", Range::positive());
     scene.celerity = phase_speed(scene.wave_period, depth);
+}
+
+/// Waves lower than the particles can tell, and a threshold that none of them reaches.
+void judge_waves(const common::SceneFile& file, const Section& section, Scene& scene, double depth) {
+    const double height = scene.wave_height, l0 = scene.settings.spacing;
+    scene.arrival_threshold =
+        section.number("arrival_threshold", "m",
+                       "surface elevation at the wall that counts as arrival; default: 0.005 depths, at most "
+                       "0.1 wave heights",
+                       Range::positive(), height > 0 ? std::min(0.005 * depth, 0.1 * height) : 0.005 * depth);
+    if (height == 0) return;
+    if (scene.arrival_threshold > height)
+        section.problem("arrival_threshold",
+                        fmt::format("{:g} m is more than waves.height = {:g} m: the waves would never arrive",
+                                    scene.arrival_threshold, height));
+    constexpr double least = 0.5, few = 3.0;  // particles over the height of a wave
+    if (height < least * l0)
+        file.foreign_section("waves").problem(
+            "height", fmt::format("{:g} m is {:.2g} particles of cmps.particle_spacing = {:g} m: the near "
+                                  "field cannot tell waves lower than {:g}; a particle_spacing of {:.2g} m "
+                                  "would show them roughly, one of {:.2g} m well",
+                                  height, height / l0, l0, least, height / few, 0.1 * height));
+    else if (height < few * l0)
+        scene.remarks.push_back(
+            {"low_waves", fmt::format("waves.height = {:g} m is {:.2g} particles of {:g} m: heights in the "
+                                      "near field are rough below {:g}",
+                                      height, height / l0, l0, few)});
+}
+
+/// What [waves] says of the waves that arrive.
+void read_waves(const common::SceneFile& file, const Section& section, Scene& scene, double depth) {
+    read_wave_kind(file, scene, depth);
+    judge_waves(file, section, scene, depth);
 }
 
 void read_drive(const Section& section, Scene& scene, double depth) {
@@ -302,9 +336,6 @@ void read_drive(const Section& section, Scene& scene, double depth) {
                        "in which the wall comes back to its place; default: 10 in 0.4 m of water, as "
                        "Froude's law says elsewhere",
                        Range::positive(), 10.0 * scene.froude_time());
-    scene.arrival_threshold =
-        section.number("arrival_threshold", "m", "surface elevation at the wall that counts as arrival",
-                       Range::positive(), 0.005 * depth);
     if (section.has("start") && !section.is_text("start"))
         scene.start = section.number("start", "s", "time at which the near field starts, or \"arrival\"",
                                      Range::not_negative());
@@ -404,7 +435,7 @@ Scene read_scene(const common::SceneFile& file) {
     }
     read_numerics(file, section, scene, depth);
     read_drive(section, scene, depth);
-    read_waves(file, scene, depth);
+    read_waves(file, section, scene, depth);
     read_output(file, section, scene);
     scene.gauges = common::read_gauges(file, 0.02);
     check_reach_of_gauges(file, scene);
@@ -418,6 +449,7 @@ Scene read_scene(const common::SceneFile& file) {
         section.problem("relaxation_length", "the relaxation zone is longer than the near field");
     check_tank_ends(section, scene);
     is_sound &= scene.settings.spacing > 1e-4 * depth && scene.settings.spacing < depth;
+    is_sound &= check_distance_from_origin(section, scene);
     if (!is_sound) return scene;
     check_geometry(file, section, scene);
     return scene;

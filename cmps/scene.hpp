@@ -28,6 +28,11 @@ struct PistonRange {
     double period = 0;  ///< in which it swings to and fro, s; 0: it does not
 };
 
+/// What is taken as it stands, but should be known: told once, and kept in run.json.
+struct Remark {
+    std::string name, text;
+};
+
 /// The stage's part of a scene.
 struct Scene {
     common::TimeSection time;
@@ -77,6 +82,8 @@ struct Scene {
     double absorption_reach() const { return 0.5 * settings.depth; }
     /// Times that were found in 0.4 m of water become, by Froude's law, this many times as long here.
     double froude_time() const { return std::sqrt(settings.depth / 0.4); }
+
+    std::vector<Remark> remarks;
 
     // effects, decided
     std::vector<common::EffectRecord> effects;

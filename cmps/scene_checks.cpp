@@ -116,6 +116,24 @@ void check_narrow_places(const Section& section, const Scene& scene, const Solid
                         spacing_that_does(place->width / least_gap)));
 }
 
+/// A polygon whose faces all lie in others changes nothing: its force would read zero.
+void check_structure_faces(const Section& section, const Scene& scene, const Solid& solid) {
+    std::vector<bool> has_face(scene.structure.size(), false);
+    for (const SurfaceSegment& segment : solid.surface())
+        if (segment.body >= 0) has_face[static_cast<std::size_t>(segment.body)] = true;
+    for (std::size_t k = 0; k < scene.structure.size(); ++k) {
+        if (has_face[k]) continue;
+        std::size_t other = 0;
+        while (other < k && scene.structure[other] != scene.structure[k]) ++other;
+        section.problem("structure",
+                        other < k
+                            ? fmt::format("polygons {} and {} are the same: give one", other + 1, k + 1)
+                            : fmt::format("polygon {} has no face of its own: it lies within the bed, walls "
+                                          "and the other polygons, and changes nothing",
+                                          k + 1));
+    }
+}
+
 /// Gauges in the solid have no water to read. On its face they may stand.
 void check_gauges_in_solid(const common::SceneFile& file, const Scene& scene, const Solid& solid) {
     using Kind = common::Gauge::Kind;
@@ -175,11 +193,60 @@ void check_reach_of_gauges(const common::SceneFile& file, const Scene& scene) {
     }
 }
 
+bool check_distance_from_origin(const Section& section, const Scene& scene) {
+    // geometry tells places apart by a nanometre, four units in the last place of numbers of this size
+    constexpr double farthest = 1e6;  // m
+    const bool is_offshore = std::abs(scene.offshore) > std::abs(scene.onshore);
+    const double at = is_offshore ? scene.offshore : scene.onshore;
+    if (std::abs(at) <= farthest) return true;
+    section.problem(is_offshore ? "offshore" : "onshore",
+                    fmt::format("x = {:g} m is too far from the origin, at most {:g} m: put the scene's "
+                                "origin nearer",
+                                at, farthest));
+    return false;
+}
+
+void check_water_at_gauges(const common::SceneFile& file, const Scene& scene) {
+    using Kind = common::Gauge::Kind;
+    if (scene.gauges.empty()) return;
+    const Solid solid = make_solid(scene);
+    const double l0 = scene.settings.spacing, top = out_of_reach(scene), bottom = lowest_bottom(scene) - l0;
+    const bool ends_at_structure = scene.has_effect("overtopping_basin") || scene.crest_is_out_of_reach;
+    const double rear = ends_at_structure ? rear_of_structure(scene, solid) : scene.onshore;
+    const auto is_solid = [&](double x) {
+        return solid.free_intervals(x - 0.01 * l0, bottom, top).empty() &&
+               solid.free_intervals(x + 0.01 * l0, bottom, top).empty();
+    };
+    for (const common::Gauge& gauge : scene.gauges) {
+        if (gauge.kind == Kind::overtopping) continue;  // counts what passes, and need not stand in it
+        if (gauge.x < scene.offshore || gauge.x > scene.onshore) continue;  // another stage's
+        const bool has_level = gauge.kind == Kind::pressure || gauge.kind == Kind::velocity;
+        std::string why;
+        if (gauge.x > rear + 1e-9)
+            why = fmt::format("water behind the structure, whose rear is at x = {:g} m, is {}", rear,
+                              scene.crest_is_out_of_reach
+                                  ? "out of reach"
+                                  : "counted and not simulated (effects.overtopping_basin = \"off\", or "
+                                    "cmps.water, would have it there)");
+        else if (is_solid(gauge.x))
+            why = "bed, structure or walls fill all of it";
+        else if (scene.drive == Drive::piston && gauge.x < scene.offshore + scene.piston.least)
+            why = fmt::format("it stands behind the piston, which goes back to x = {:g} m only",
+                              scene.offshore + scene.piston.least);
+        else if (has_level && gauge.z > top)
+            why = fmt::format("no water rises above z = {:g} m", top);
+        if (!why.empty())
+            file.section("gauges").problem(gauge.name,
+                                           fmt::format("no water in reach at x = {:g} m: {}", gauge.x, why));
+    }
+}
+
 void check_geometry(const common::SceneFile& file, const Section& section, const Scene& scene) {
     check_places(section, scene);
     check_water_at_wall(section, scene);
     check_wall_path(section, scene);
     const Solid solid = make_solid(scene);
+    check_structure_faces(section, scene, solid);
     check_narrow_places(section, scene, solid);
     check_gauges_in_solid(file, scene, solid);
 }

@@ -16,6 +16,11 @@ void check_tank_ends(const common::Section& section, const Scene& scene);
 /// Gauges that this stage alone could read, where it has no water. Surfaces outside the near field are the
 /// waves' own.
 void check_reach_of_gauges(const common::SceneFile& file, const Scene& scene);
+/// False where places are so far from the origin that numbers hold them no better than to a nanometre.
+bool check_distance_from_origin(const common::Section& section, const Scene& scene);
+/// Gauges where no water can ever come, when the effects are decided: behind a structure with a basin or a
+/// crest out of reach, in the solid from ground to sky, behind a piston, above all water.
+void check_water_at_gauges(const common::SceneFile& file, const Scene& scene);
 /// Of a scene whose polygons are sound: structure and water in their places, the moving wall's way free, no
 /// body or gap that the particles cannot resolve, no gauge in the solid.
 void check_geometry(const common::SceneFile& file, const common::Section& section, const Scene& scene);

@@ -79,6 +79,13 @@ bool Solid::contains(double x, double z) const {
     return false;
 }
 
+/// A face that two polygons share, both on the same side of it, is that of the first.
+bool Solid::is_face_of_earlier(const Part& part, const Point& behind) const {
+    for (const Part* other = parts_.data(); other != &part; ++other)
+        if (inside(other->points, behind[0], behind[1])) return true;
+    return false;
+}
+
 void Solid::find_surface(const Point& low, const Point& high) {
     surface_.clear();
     for (const Part& part : parts_)
@@ -102,6 +109,8 @@ void Solid::find_surface(const Point& low, const Point& high) {
                 const double off = 1e-7;  // m: beside the edge
                 const double x = middle[0] + off * normal[0], z = middle[1] + off * normal[1];
                 if (x < low[0] || x > high[0] || z < low[1] || z > high[1] || contains(x, z)) continue;
+                if (is_face_of_earlier(part, {middle[0] - off * normal[0], middle[1] - off * normal[1]}))
+                    continue;
                 const Point from = along(a, b, cuts[k]), to = along(a, b, cuts[k + 1]);
                 if (!surface_.empty() && k > 0 && surface_.back().normal == normal &&
                     std::hypot(surface_.back().to[0] - from[0], surface_.back().to[1] - from[1]) < 1e-9)

@@ -41,6 +41,7 @@ class Solid {
         std::int32_t body;
         double x0, x1, z0, z1;
     };
+    bool is_face_of_earlier(const Part& part, const Point& behind) const;
     std::vector<Part> parts_;
     std::vector<SurfaceSegment> surface_;
 };

@@ -67,6 +67,7 @@ void WindowOutput::for_each_series(const Visit& visit) {
 
 void WindowOutput::begin(const common::WindowClock& clock, std::int64_t index) {
     window_ = {};
+    positions_.clear();
     window_.index = index, window_.t_begin = clock.begin_of(index), window_.t_end = clock.end_of(index);
     for_each_series([&](Series& series, double interval) {
         series.due = clock.samples_in(index, interval), series.next = 0;
@@ -187,7 +188,7 @@ void WindowOutput::sample_particles(double share) {
         };
         const bool is_here = std::isfinite(after[0][2 * k]);
         for (std::size_t c = 0; c < 2; ++c) {
-            values[0].push_back(static_cast<float>(is_here ? value(0, 2 * k + c) : away[c]));
+            positions_.push_back(is_here ? value(0, 2 * k + c) : away[c]);
             values[1].push_back(static_cast<float>(value(1, 2 * k + c)));
         }
         values[2].push_back(
@@ -242,7 +243,7 @@ common::Window WindowOutput::take() {
     const std::size_t ns = particle_series_.next;
     const std::size_t np = particle_series_.values[2].size() / std::max<std::size_t>(ns, 1);
     data["/particles/time"] = times(particle_series_);
-    data["/particles/position"] = common::real32("m", {ns, np, 2}, std::move(particle_series_.values[0]));
+    data["/particles/position"] = common::real64("m", {ns, np, 2}, std::move(positions_));
     data["/particles/velocity"] = common::real32("m/s", {ns, np, 2}, std::move(particle_series_.values[1]));
     data["/particles/pressure"] = common::real32("Pa", {ns, np}, std::move(particle_series_.values[2]));
     std::vector<std::int32_t> kind(np, 0);  // 0: fluid, 1: wall

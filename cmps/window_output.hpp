@@ -70,6 +70,8 @@ class WindowOutput {
     RunningMean pressures_;                      // one channel a gauge, then two a structure: its force
     std::vector<std::size_t> beyond_at_start_;   // per gauge, particles that stood behind it at the start
     Series flow_series_, particle_series_, force_series_;
+    // of the particles' pictures: places far from the origin do not fit into single precision, m
+    std::vector<double> positions_;
     std::vector<Series> gauge_series_;
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace common {
 
@@ -10,6 +11,23 @@ TimeSection read_time(const SceneFile& scene) {
     const Section time = scene.section("time");
     return {.end = time.number("end", "s", "end of the simulation", Range::positive()),
             .window = time.number("window", "s", "length of an exchange window", Range::positive(), 1.0)};
+}
+
+double read_water_density(const SceneFile& scene, SharedKey own, SharedKey other) {
+    const char* about = "density of water";
+    std::optional<double> elsewhere;
+    if (scene.has_section(other.section)) {
+        const Section section = scene.foreign_section(other.section);
+        if (section.has(other.key)) elsewhere = section.number(other.key, "kg/m3", about, Range::positive());
+    }
+    const Section section = scene.section(own.section);
+    const double density =
+        section.number(own.key, "kg/m3", about, Range::positive(), elsewhere.value_or(1000.0));
+    if (elsewhere && density != *elsewhere)
+        section.problem(own.key, fmt::format("{:g} kg/m3, but {}.{} = {:g} kg/m3: it is the same water; give "
+                                             "one of them",
+                                             density, other.section, other.key, *elsewhere));
+    return density;
 }
 
 std::vector<Point> read_bed(const SceneFile& scene, bool required) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/scene_file.hpp"
@@ -14,6 +15,13 @@ struct TimeSection {
     double window;  ///< length of an exchange window, s
 };
 TimeSection read_time(const SceneFile& scene);
+
+/// Density of water, kg/m3, that two stages have a key of their own for (`own` and `other`, section and key):
+/// one that is not given is that of the other; two that differ are refused.
+struct SharedKey {
+    std::string_view section, key;
+};
+double read_water_density(const SceneFile& scene, SharedKey own, SharedKey other);
 
 /// [flume] bed: polyline from offshore to shore, x strictly increasing (m); z = 0 is still water.
 /// Empty when the scene has no [flume] and `required` is false.

@@ -20,12 +20,12 @@ Vector read_vector(const Section& section, const char* key, const char* unit, co
     return {v[0], v[1], v[2]};
 }
 
-void read_material(const Section& dem, Scene& scene) {
+void read_material(const common::SceneFile& file, const Section& dem, Scene& scene) {
     scene.element.diameter =
         dem.number("element_diameter", "m", "diameter d of a sphere element", Range::positive(), 0.008);
     scene.element.density_ratio = dem.number(
         "density_ratio", "-", "density s of an element over that of water", Range::positive(), 3.689);
-    scene.water.density = dem.number("water_density", "kg/m3", "density of water", Range::positive(), 1000);
+    scene.water.density = common::read_water_density(file, {"dem", "water_density"}, {"cmps", "density"});
     scene.water.viscosity =
         dem.number("viscosity", "m2/s", "kinematic viscosity of water", Range::not_negative(), 1e-6);
     scene.water.added_mass_coefficient =
@@ -214,7 +214,7 @@ Scene read_scene(const SceneFile& file, const SceneFile* layout) {
     scene.time = common::read_time(file);
     scene.perturbation = file.perturbation();
     const Section dem = file.section("dem");
-    read_material(dem, scene);
+    read_material(file, dem, scene);
     read_stepping(file, dem, scene);
     judge_stiffness(dem, scene);
     read_water(dem, scene, dry);

@@ -62,6 +62,8 @@ for path, lines in ((shaken, "0.0,0.0,-9.81\n1.0,0.5,-9.81\n"), (nan_inside, "t,
 wall = "offshore = 25.0\nonshore = 31.0\nparticle_spacing = 0.05\n"
 dry = 'drive = "none"\ntank = [0, 1, 0, 1]\nparticle_spacing = 0.05\n'
 no_flow = {"cmps__flow": None}
+BLOCK = "[[29.0, -0.4], [29.0, 0.1], [29.4, 0.1], [29.4, -0.4]]"
+WALL_AT_29 = f"structure = [{BLOCK}]"
 pool = dry + "water = [[[0, 0], [1, 0], [1, 0.4], [0, 0.4]]]\n"
 # name, waves, changes, what the line must say
 cases = [
@@ -105,6 +107,18 @@ cases = [
     ("end_in_tank", None, {"cmps": pool + "onshore = 0.7", **no_flow}, "cmps.onshore: the tank's wall stands at x = 1 m"),
     ("waves_in_tank", waves, {"cmps": 'drive = "waves"\ntank = [24, 30, -0.4, 1]\nparticle_spacing = 0.05', **no_flow}, "cmps.drive: waves come into a flume, not into a tank"),
     ("gauge_in_structure", None, {"cmps": pool + "structure = [[[0.3, 0], [0.7, 0], [0.7, 0.3], [0.3, 0.3]]]", "gauges": 'g = {x = 0.5, z = 0.15, kind = "pressure"}', **no_flow}, "gauges.g: (0.5, 0.15) m lies inside"),
+    ("gauge_behind", waves, {"cmps": wall + WALL_AT_29, "gauges": "lee = 30.0"}, "gauges.lee: no water in reach at x = 30 m: water behind the structure, whose rear is at x = 29.4 m, is counted and not simulated"),
+    ("velocity_behind", waves, {"cmps": wall + WALL_AT_29, "gauges": 'lee = {x = 30.0, z = -0.1, kind = "velocity"}'}, "gauges.lee: no water in reach at x = 30 m"),
+    ("gauge_behind_high_wall", waves, {"cmps": wall + WALL_AT_29.replace("0.1", "1.5"), "gauges": "lee = 30.0"}, "gauges.lee: no water in reach at x = 30 m: water behind the structure, whose rear is at x = 29.4 m, is out of reach"),
+    ("surface_in_structure", waves, {"cmps": wall + WALL_AT_29.replace("0.1", "1.5"), "gauges": "inside = 29.2"}, "gauges.inside: no water in reach at x = 29.2 m: bed, structure or walls fill all of it"),
+    ("gauge_behind_piston", None, {"cmps": wall + f'drive = "piston"\npiston_file = "{piston_away}"', "gauges": "behind = 25.2"}, "gauges.behind: no water in reach at x = 25.2 m: it stands behind the piston, which goes back to x = 25.5 m only"),
+    ("gauge_in_the_sky", waves, {"gauges": 'sky = {x = 28.0, z = 3.0, kind = "pressure"}'}, "gauges.sky: no water in reach at x = 28 m: no water rises above z = 0.8 m"),
+    ("gauge_under_bed", waves, {"gauges": 'deep = {x = 28.0, z = -0.6, kind = "velocity"}'}, "gauges.deep: (28, -0.6) m lies inside"),
+    ("structure_twice", waves, {"cmps": wall + f"structure = [{BLOCK}, {BLOCK}]"}, "cmps.structure: polygons 1 and 2 are the same: give one"),
+    ("structure_twice_from_elsewhere", waves, {"cmps": wall + f"structure = [{BLOCK}, [[29.4, 0.1], [29.4, -0.4], [29.0, -0.4], [29.0, 0.1]]]"}, "cmps.structure: polygon 2 has no face of its own"),
+    ("structure_in_structure", waves, {"cmps": wall + f"structure = [[[29.1, -0.4], [29.1, 0.0], [29.3, 0.0], [29.3, -0.4]], {BLOCK}]"}, "cmps.structure: polygon 1 has no face of its own"),
+    ("far_away", None, {"flume": "bed = [[2e6, -0.4], [2000040.0, -0.4]]", "cmps": 'drive = "none"\nparticle_spacing = 0.05', **no_flow}, "cmps.onshore: x = 2.00004e+06 m is too far from the origin, at most 1e+06 m"),
+    ("two_densities", waves, {"cmps": wall + "density = 1000", "dem": "water_density = 1025"}, "cmps.density: 1000 kg/m3, but dem.water_density = 1025 kg/m3: it is the same water; give one of them"),
     # words and numbers
     ("unknown", waves, {"cmps": wall + "particel_spacing = 0.05"}, "particel_spacing"),
     ("word", waves, {"cmps": wall + 'gradient = "best"'}, "corrected"),
@@ -138,6 +152,8 @@ cases = [
     ("flat", flat, {}, "the waves never reach cmps.offshore"),
     ("nowhere", os.path.join(FOLDER, "nothing"), {}, "no such folder"),
     ("no_waves", None, {}, "--waves DIR is needed"),
+    ("lower_than_a_particle", waves, {"waves": 'kind = "regular"\nheight = 0.02\nperiod = 1.65'}, "waves.height: 0.02 m is 0.4 particles of cmps.particle_spacing = 0.05 m: the near field cannot tell waves lower than 0.5"),
+    ("never_arrives", waves, {"cmps": wall + "arrival_threshold = 0.1", "waves": 'kind = "regular"\nheight = 0.06\nperiod = 1.65'}, "cmps.arrival_threshold: 0.1 m is more than waves.height = 0.06 m: the waves would never arrive"),
     ("wave_height", waves, {"waves": 'kind = "regular"\nheight = "tall"\nperiod = 1.65'}, "waves.height"),
     ("wave_period", waves, {"waves": 'kind = "regular"\nheight = 0.06\nperiod = -1'}, "waves.period"),
     ("wave_kind", waves, {"waves": 'kind = "regluar"\nheight = 0.06\nperiod = 1.65'}, "waves.kind"),

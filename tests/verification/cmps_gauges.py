@@ -55,6 +55,37 @@ particle_spacing = {spacing}
     expect(abs(wall[0] / thrust - 1) < 0.02, f"still water: force on the wall {wall[0]:.1f} N/m, rho g h^2 / 2 = {thrust:.1f} (bound 2 %)")
 
 
+def dry_ground():
+    """Gauges where water may come but none has: the ground's level, on the bed and on a step behind the structure."""
+    run = Run("dry_gauges", """
+[time]
+end = 0.1
+window = 0.1
+[flume]
+bed = [[0.0, -0.4], [3.0, -0.4]]
+[gauges]
+lee = 2.4
+step = 2.8
+crest = 2.1
+current = {x = 2.4, z = -0.2, kind = "velocity"}
+load = {x = 2.2, z = -0.2, kind = "pressure"}
+[effects]
+overtopping_basin = "off"
+[cmps]
+drive = "none"
+offshore = 1.0
+particle_spacing = 0.05
+structure = [[[2.0, -0.4], [2.0, 0.1], [2.2, 0.1], [2.2, -0.4]], [[2.6, -0.4], [2.6, -0.1], [3.0, -0.1], [3.0, -0.4]]]
+""")
+    expect(run.status == 0, f"dry ground: exit {run.status} {run.messages.strip()}")
+    for name, ground in (("lee", -0.4), ("step", -0.1), ("crest", 0.1)):
+        _, level = run.gauge(name)
+        expect(np.abs(level - ground).max() < 1e-6, f"dry ground: gauge {name} reads {level[0]:.4f} m, the ground {ground} m (single precision)")
+    for name, quantity in (("current", "velocity"), ("load", "pressure")):
+        _, value = run.gauge(name, quantity)
+        expect(np.all(value == 0), f"dry ground: no {quantity} at gauge {name}")
+
+
 def weir():
     """A basin drains over a wall. Head over the crest by Poleni's law, q = 2/3 Cd sqrt(2g) H^1.5 with Cd = 0.62, so that
     1/sqrt(H) grows by q/(2 L H^1.5) in time. What passed, what the gauge counted and what is missing in the basin are one."""
@@ -133,6 +164,7 @@ structure = [[[3, -0.4], [3, 0.3], [3.2, 0.3], [3.2, -0.4]]]
 
 
 still_water()
+dry_ground()
 weir()
 gauges_on_faces()
 finish()

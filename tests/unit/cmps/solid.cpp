@@ -9,6 +9,7 @@
 
 namespace {
 
+using cmps::Polygon;
 using cmps::Solid;
 
 /// A floor with a block on it: the block's underside and the floor below it are not exposed.
@@ -39,6 +40,20 @@ TEST(Solid, OrientationDoesNotMatter) {
     solid.find_surface({-0.5, -0.5}, {1.5, 1.0});
     ASSERT_EQ(solid.surface().size(), 1u);
     EXPECT_NEAR(solid.surface()[0].normal[1], 1.0, 1e-12);
+}
+
+TEST(Solid, AFaceThatTwoPolygonsShareIsThereOnce) {
+    const Polygon low = {{0.4, 0}, {0.6, 0}, {0.6, 0.3}, {0.4, 0.3}},
+                  high = {{0.4, 0}, {0.5, 0}, {0.5, 0.5}, {0.4, 0.5}};
+    for (const bool is_low_first : {true, false}) {
+        Solid solid;
+        solid.add({{-1, -1}, {2, -1}, {2, 0}, {-1, 0}}, cmps::body_bed);
+        solid.add(is_low_first ? low : high, 0), solid.add(is_low_first ? high : low, 1);
+        solid.find_surface({-0.5, -0.5}, {1.5, 1.0});
+        // offshore side 0.5 high, steps of 0.1, 0.2, 0.1, 0.3 down to the floor
+        EXPECT_NEAR(exposed_length(solid, 0) + exposed_length(solid, 1), 1.2, 1e-9);
+        EXPECT_NEAR(exposed_length(solid, cmps::body_bed), 2.0 - 0.2, 1e-9);
+    }
 }
 
 TEST(Solid, FreeIntervals) {
