@@ -32,7 +32,7 @@ FixedSpheres::FixedSpheres(std::vector<Vector> centres, double diameter, double 
     }
     lowest_ = least.z();
     highest_ = most.z();
-    // A border of one empty column on every side spares the bounds tests of the 3 x 3 search.
+    // A border of one empty column on every side holds the points that are outside and yet within reach.
     constexpr double most_columns = 4e6;
     const double width = most.x() - least.x(), depth = most.y() - least.y();
     while ((width / cell_ + 4) * (depth / cell_ + 4) > most_columns) cell_ *= 2;
@@ -56,14 +56,16 @@ FixedSpheres::FixedSpheres(std::vector<Vector> centres, double diameter, double 
         in_order_[to] = places[i];
         own_top[cell] = std::max(own_top[cell], places[i].z());
     }
+    // The border too: its columns are empty, but what stands beside them is felt from there.
     top_ = own_top;
-    for (std::int64_t y = 1; y + 1 < count_y_; ++y)
-        for (std::int64_t x = 1; x + 1 < count_x_; ++x)
-            for (std::int64_t dy = -1; dy <= 1; ++dy)
-                for (std::int64_t dx = -1; dx <= 1; ++dx) {
-                    auto& top = top_[static_cast<std::size_t>(y * count_x_ + x)];
-                    top = std::max(top, own_top[static_cast<std::size_t>((y + dy) * count_x_ + x + dx)]);
-                }
+    for (std::int64_t y = 0; y < count_y_; ++y)
+        for (std::int64_t x = 0; x < count_x_; ++x) {
+            auto& top = top_[static_cast<std::size_t>(y * count_x_ + x)];
+            for (std::int64_t j = std::max<std::int64_t>(y - 1, 0); j <= std::min(y + 1, count_y_ - 1); ++j)
+                for (std::int64_t i = std::max<std::int64_t>(x - 1, 0); i <= std::min(x + 1, count_x_ - 1);
+                     ++i)
+                    top = std::max(top, own_top[static_cast<std::size_t>(j * count_x_ + i)]);
+        }
 }
 
 std::int64_t FixedSpheres::cell_of(double x, double y) const {

@@ -231,8 +231,17 @@ void PairList::find_pairs() {
                 add(i, static_cast<std::uint32_t>(count) + 1 + k, 0);
         }
     }
-    std::sort(found.begin(), found.end(),
-              [](const Pair& a, const Pair& b) { return order_of(a) < order_of(b); });
+    const auto is_before = [](const Pair& a, const Pair& b) { return order_of(a) < order_of(b); };
+    std::sort(found.begin(), found.end(), is_before);
+    // However far apart by now, those that touched at the last look: a sleeper must be told that they parted.
+    std::vector<Pair> touched;
+    for (std::size_t k = 0; k < pairs_.size(); ++k)
+        if (last_[k].is_acting() && !std::binary_search(found.begin(), found.end(), pairs_[k], is_before))
+            touched.push_back(
+                {.block = pairs_[k].block, .partner = pairs_[k].partner, .image = pairs_[k].image});
+    found.insert(found.end(), touched.begin(), touched.end());
+    std::inplace_merge(found.begin(), found.end() - static_cast<std::ptrdiff_t>(touched.size()), found.end(),
+                       is_before);
 
     // What old pairs hold goes over to the new ones; both lists are in order.
     std::vector<PairForces> last(found.size());

@@ -43,6 +43,8 @@ struct PairForces {
     Vector damping_torque{0, 0, 0};  ///< and of the torque on the block, N m
     double dissipated = 0;           ///< by sliding springs in that step, J
     double largest_overlap = 0;      ///< m
+
+    bool is_acting() const { return !force.isZero(0) || !torque_on_block.isZero(0); }
 };
 
 /// A block and a partner: a later block, the fixed spheres (number blocks.size()), or a plane (the numbers
@@ -107,6 +109,8 @@ class PairList {
     }
     /// Forces of the last step before a look at the water, a sample or a saved state.
     PairForces& last(std::size_t pair) { return last_[pair]; }
+    /// May touch in the next step, or touched at the last look.
+    bool is_near(std::size_t pair) const { return pairs_[pair].candidates > 0 || last_[pair].is_acting(); }
     /// Those that touch, in order.
     std::vector<TouchingPair> touching() const;
     std::size_t contact_count() const;

@@ -247,7 +247,10 @@ void Simulation::add_contacts(double dt, bool is_last) {
             const bool is_touching = pair.contacts > 0;
             if (!bordering_.empty())
                 note_change(pair, is_touching ? portion_[k] : PairForces{}, pair_list_.last(some[k]));
-            if (!is_touching) continue;
+            if (!is_touching) {
+                if (is_last) pair_list_.last(some[k]) = {};  // they parted
+                continue;
+            }
             const PairForces& forces = portion_[k];
             add_pair(pair, forces, is_awake_[pair.block],
                      pair_list_.is_block(pair.partner) && is_awake_[pair.partner]);
@@ -320,12 +323,9 @@ void Simulation::sum_all_forces() {
     for (const auto& load : link_loads_) load->add(blocks, movable_, is_movable_, time_);
     for (std::size_t k = 0; k < pair_list_.pairs().size(); ++k) {
         const Pair& pair = pair_list_.pairs()[k];
-        PairForces& last = pair_list_.last(k);
         if (pair.contacts > 0)
-            add_pair(pair, last, is_movable_[pair.block],
+            add_pair(pair, pair_list_.last(k), is_movable_[pair.block],
                      pair_list_.is_block(pair.partner) && is_movable_[pair.partner]);
-        else if (!last.force.isZero(0))
-            last = {};  // they parted: when they touch again, this is no part of the sums
     }
 }
 
@@ -402,7 +402,7 @@ void Simulation::find_active() {
     const bool anybody_asleep = awake_.size() < movable_.size();
     for (std::uint32_t k = 0; k < pair_list_.pairs().size(); ++k) {
         const Pair& pair = pair_list_.pairs()[k];
-        if (pair.candidates == 0) continue;
+        if (!pair_list_.is_near(k)) continue;
         if (is_awake_[pair.block] || (pair_list_.is_block(pair.partner) && is_awake_[pair.partner]))
             active_.push_back(k);
         else
