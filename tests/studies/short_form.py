@@ -42,6 +42,9 @@ with tempfile.TemporaryDirectory(prefix="tsunagi_study_") as folder:
     tables, pictures = (list(pathlib.Path(folder).glob(pattern)) for pattern in ("*.csv", "*.png"))
     if not tables or not pictures:
         sys.exit(f"{study}: left {len(tables)} tables and {len(pictures)} pictures")
+    name = pathlib.Path(study).stem
+    if not any(table.name.startswith(name) for table in tables):
+        sys.exit(f"{study}: its tables do not begin with its name, by which RECORD=1 keeps them: {[table.name for table in tables]}")
     for table in tables:
         rows = list(csv.DictReader(table.open()))
         print(f"{table.name}: {len(rows)} rows of {', '.join(rows[0]) if rows else 'nothing'}")

@@ -334,11 +334,11 @@ def main():
         print(",".join(map(str, rows[-1])), flush=True)
     if arguments.part:
         return
-    with open(os.path.join(arguments.out, "cmps_cost.csv"), "w", newline="") as file:
+    with open(os.path.join(arguments.out, "cost_cmps.csv"), "w", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(HEAD)
         writer.writerows(rows)
-    draw(rows, os.path.join(arguments.out, "cmps_cost.png"))
+    draw(rows, os.path.join(arguments.out, "cost_cmps.png"))
 
 
 if __name__ == "__main__":

@@ -5,8 +5,8 @@
 The flow is OUT/flow of `make chain` or `make flow`; without it the chain is run first. Clock: t = 0 when waves reach the blocks.
 Case 1 runs to 11.67 s after that; case 2 starts there, in calm water, with row 2 put back and its layout mounted, and meets the same
 waves again, as does case 1 gone on with from the same calm ("control").
-Writes paper_displacement.csv (a row a case and seed), paper_psi.csv (damage against psi), paper_tension.csv (f_max and f_min at
-the paper's instants), paper_arch.csv (tensions along and across, in the middle and at the ends), paper_summary.json (what came out
+Writes paper_dem_displacement.csv (a row a case and seed), paper_dem_psi.csv (damage against psi), paper_dem_tension.csv (f_max and f_min at
+the paper's instants), paper_dem_arch.csv (tensions along and across, in the middle and at the ends), paper_dem_summary.json (what came out
 and what did not) and pictures of each.
 """
 import csv
@@ -187,9 +187,9 @@ for seed in seeds:
                 if last <= end:
                     arches.append({"case": name, "seed": seed, "wires": wires, "t_after_arrival_s": label,
                                    **tensions_by_place(folder, first, last, kept_from)})
-write_csv("paper_displacement.csv", rows)
-write_csv("paper_arch.csv", arches)
-write_csv("paper_tension.csv", tensions)
+write_csv("paper_dem_displacement.csv", rows)
+write_csv("paper_dem_arch.csv", arches)
+write_csv("paper_dem_tension.csv", tensions)
 
 psi_rows = []
 for psi in psis:
@@ -202,7 +202,7 @@ for psi in psis:
         psi_rows.append({"psi": psi, "seed": seed, "broken_wires": figures["wires"]["broken"], "wires": figures["wires"]["count"],
                          "damage_number": figures["damage"]["number"], "beyond_quarter_length": figures["damage"]["beyond_quarter_length"],
                          "wired_mean_m": total[wired].mean(), "wired_offshore_m": offshore[wired].mean()})
-write_csv("paper_psi.csv", psi_rows)
+write_csv("paper_dem_psi.csv", psi_rows)
 
 
 def column(case, key):
@@ -241,7 +241,7 @@ for wires in ("all", "new"):
 for case in ("case1", "case2"):
     pulls = [row["cross_78_N"] for row in tensions if row["case"] == case and row["t_after_arrival_s"] == "11.67"]
     summary[f"4 cross-shore wire at block 78 in tension at the end of {case}"] = {"seeds_in_which_so": sum(pull > 0 for pull in pulls), "newtons": pulls}
-(options.out / "paper_summary.json").write_text(json.dumps(summary, indent=1, default=float))
+(options.out / "paper_dem_summary.json").write_text(json.dumps(summary, indent=1, default=float))
 
 figure, axes = plt.subplots(1, 3, figsize=(13, 3.6))
 for place, (key, label) in enumerate((("wired_offshore_m", "wired"), ("unwired_sea_side_offshore_m", "unwired, rows 4-5"), ("all_offshore_m", "all"))):
@@ -259,7 +259,7 @@ axes[1].set_xlabel("psi"), axes[1].set_ylabel("share of broken wires"), axes[1].
 moved = [mean_and_spread([1e3 * row["wired_mean_m"] for row in psi_rows if row["psi"] == psi]) for psi in psis]
 axes[2].errorbar(psis, [m[0] for m in moved], [m[1] for m in moved], fmt="o-", capsize=3)
 axes[2].set_xlabel("psi"), axes[2].set_ylabel("displacement of wired blocks (mm)"), axes[2].set_title("case 1")
-figure.savefig(options.out / "paper_displacement.png")
+figure.savefig(options.out / "paper_dem_displacement.png")
 
 for case in ("case1", "case2"):
     folder = runs / f"{case}_1"
@@ -281,5 +281,5 @@ for case in ("case1", "case2"):
         axis.set_ylabel("x (m)")
         axis.set_aspect("equal")
     axes[1].set_xlabel("y along the breakwater (m)")
-    figure.savefig(options.out / f"paper_tension_{case}.png")
+    figure.savefig(options.out / f"paper_dem_tension_{case}.png")
 print(json.dumps(summary, indent=1, default=float))
