@@ -5,10 +5,14 @@
 #include <ctime>
 
 #include "cmps/near_field.hpp"
+#include "cmps/pools.hpp"
 #include "cmps/scene_geometry.hpp"
+#include "cmps/time_table.hpp"
 
 namespace cmps {
 namespace {
+
+constexpr double pi = 3.14159265358979, two_pi = 2 * pi;
 
 /// Travel time of a long wave from the bed's offshore end to the wall, s.
 double travel_time(const Scene& scene) {
@@ -23,22 +27,6 @@ double travel_time(const Scene& scene) {
     return time;
 }
 
-/// Height by which the water's centre lies above that of the same water level over the tank or flume, m.
-double height_to_fall(const Scene& scene, const Solid& solid, const Particles& particles) {
-    double low = 1e300, high = -1e300, centre = 0;
-    for (std::size_t i = particles.first_fluid(); i < particles.size(); ++i) {
-        centre += particles.z[i] / static_cast<double>(particles.fluid);
-        low = std::min(low, particles.z[i]), high = std::max(high, particles.z[i]);
-    }
-    const double l0 = scene.settings.spacing, x0 = scene.tank ? (*scene.tank)[0] : scene.offshore,
-                 x1 = scene.tank ? (*scene.tank)[1] : scene.onshore;
-    double left = static_cast<double>(particles.fluid) * l0 * l0, moment = 0, volume = left;
-    for (double z = low; z < high && left > 0; z += l0)  // fill layer by layer
-        for (double x = x0 + 0.5 * l0; x < x1 && left > 0; x += l0)
-            if (!solid.contains(x, z)) left -= l0 * l0, moment += z * l0 * l0;
-    return centre - moment / (volume - left);
-}
-
 /// Mean speed of water that falls freely onto the floor of its tank, over sqrt(g h).
 double falling_speed(const Scene& scene, const Particles& particles) {
     const double g = std::abs(scene.settings.gravity_z);
@@ -49,16 +37,50 @@ double falling_speed(const Scene& scene, const Particles& particles) {
     return 0.5 * g * duration / std::sqrt(g * scene.settings.depth);
 }
 
-/// Mean step, s, when water at rest allows `largest` (0.4 l0 / sqrt(g h)). What moves fastest, over sqrt(g
-/// h), as met in runs: 0.6 under waves of H/h = 0.2 to 0.4, 1.3 to 1.8 in columns that collapse and in tanks
-/// that are shaken, nothing in still water.
-double mean_step(const Scene& scene, const Solid& solid, const Particles& particles, double largest) {
-    const bool is_still =
-        scene.gravity_file.empty() && height_to_fall(scene, solid, particles) < 0.5 * scene.settings.spacing;
-    double fastest = scene.drive != Drive::none ? 0.6 : is_still ? 0.0 : 1.45;
-    if (!is_still) fastest = std::max(fastest, falling_speed(scene, particles));
+/// Fastest water over sqrt(g h) as met in runs: 1.3 to 1.8 in columns of depth h that collapse and in tanks
+/// that slosh until the water breaks; less, by Torricelli's law, where it falls from a lesser height.
+constexpr double of_collapse = 1.45;
+
+double speed_of_fall(const Scene& scene, const Particles& particles) {
+    const double drop = height_to_fall(particles, scene.settings.spacing);
+    const double share = std::min(1.0, drop / scene.settings.depth);
+    return std::max(of_collapse * std::sqrt(share), falling_speed(scene, particles));
+}
+
+/// Steps of water that falls from where it stands, or moves with waves or a piston (0.6 sqrt(g h) at H/h =
+/// 0.2 to 0.4), when water at rest allows `largest` (0.4 l0 / sqrt(g h)).
+double steps_at_speed(const Scene& scene, double fastest, double duration, double largest) {
     const double gravity_step = 0.4;
-    return largest * std::min(1.0, scene.settings.courant / (gravity_step * fastest + 1e-12));
+    return duration / (largest * std::min(1.0, scene.settings.courant / (gravity_step * fastest + 1e-12)));
+}
+
+/// Steps in a tank that is shaken: its first mode, without damping, until the water breaks. A slope a/g of
+/// the surface at rest is 4 L/pi^2 a/g of the mode cos(pi x/L).
+double steps_when_shaken(const Scene& scene, double start, double fall, double largest) {
+    const TimeTable gravity(scene.gravity_file, 3);
+    const double g = 9.81, h = scene.settings.depth, length = scene.onshore - scene.offshore;
+    const double k = pi / length, omega = std::sqrt(g * k * std::tanh(k * h));
+    const double step = 0.02 * two_pi / omega;
+    const double of_slope = omega * omega * 4.0 * length / (pi * pi) / g;
+    double amplitude = 0, rate = 0, steps = 0;
+    for (double time = start; time < scene.time.end; time += step) {
+        const double part = std::min(step, scene.time.end - time);
+        amplitude += 0.5 * part * rate;
+        rate += part * (of_slope * gravity.mean(1, time, time + part) - omega * omega * amplitude);
+        amplitude += 0.5 * part * rate;
+        const double speed = std::hypot(rate, omega * amplitude) / std::tanh(k * h) / std::sqrt(g * h);
+        if (speed > of_collapse) amplitude *= of_collapse / speed, rate *= of_collapse / speed;
+        steps += steps_at_speed(scene, std::max(fall, std::min(speed, of_collapse)), part, largest);
+    }
+    return steps;
+}
+
+double expected_steps(const Scene& scene, const Particles& particles, double start, double largest) {
+    const double duration = std::max(0.0, scene.time.end - start);
+    if (scene.drive != Drive::none) return steps_at_speed(scene, 0.6, duration, largest);
+    const double fall = speed_of_fall(scene, particles);
+    if (!scene.gravity_file.empty()) return steps_when_shaken(scene, start, fall, largest);
+    return steps_at_speed(scene, fall, duration, largest);
 }
 
 }  // namespace
@@ -79,8 +101,9 @@ Forecast make_forecast(const Scene& scene, double start) {
         for (const Point& p : polygon) surface = std::max(surface, p[1]);
     field.settle(10, surface);
     const double largest = field.largest_step();
-    forecast.step = mean_step(scene, solid, field.particles, largest);
-    forecast.steps = std::max(0.0, scene.time.end - forecast.start) / forecast.step;
+    forecast.steps = expected_steps(scene, field.particles, forecast.start, largest);
+    forecast.step =
+        forecast.steps > 0 ? std::max(0.0, scene.time.end - forecast.start) / forecast.steps : largest;
 
     constexpr int warm_up = 2, timed = 10;  // pairs of steps
     double time = 0, best = 1e300;
