@@ -128,7 +128,8 @@ int check(const common::StageCommand& command, const common::SceneFile& file, co
 void restore(cmps::Simulation& simulation, const common::OutputFolder& folder) {
     const auto refuse = [&](const std::string& what) {
         throw common::InputError(
-            fmt::format("{}: {}: another version of cmps wrote it; without --resume the run begins anew",
+            fmt::format("{}: {}: it is damaged, or another version of cmps wrote it; without --resume the "
+                        "run begins anew",
                         (folder.path() / "state.h5").string(), what));
     };
     try {

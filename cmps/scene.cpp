@@ -18,6 +18,8 @@ using common::EffectWish;
 using common::Range;
 using common::Section;
 
+constexpr double most_gravity = 1e4;        // m/s2: a thousand g
+constexpr double most_speed = 1e4;          // m/s
 constexpr double most_particles = 2e7;      // at about 1.5 kB each
 constexpr double most_gauge_samples = 1e6;  // of one gauge in one window
 constexpr double most_window_values = 5e8;  // of one dataset in one window, 2 GB
@@ -86,6 +88,10 @@ void read_water_velocity(const Section& section, Scene& scene) {
         section.problem("water_velocity",
                         fmt::format("{} velocities for {} polygons of cmps.water: one [u, w] for each",
                                     scene.water_velocity.size(), scene.water.size()));
+    for (const Point& velocity : scene.water_velocity)
+        if (!(std::hypot(velocity[0], velocity[1]) <= most_speed))
+            section.problem("water_velocity", fmt::format("[{:g}, {:g}] m/s; at most {:g}", velocity[0],
+                                                          velocity[1], most_speed));
 }
 
 /// True where the geometry is complete and can be judged further.
@@ -222,8 +228,9 @@ void read_numerics(const common::SceneFile& file, const Section& section, Scene&
                         fmt::format("{:g} times cmps.courant = {:g}: water would move by {:g} l0 in a step, "
                                     "past its neighbours; less than 1",
                                     settings.time_step_factor, settings.courant, way));
-    const auto gravity = section.numbers("gravity", "m/s2", "x and z component", 2, Range::any(),
-                                         std::vector<double>{0.0, -9.81});
+    const auto gravity =
+        section.numbers("gravity", "m/s2", "x and z component", 2,
+                        Range::between(-most_gravity, most_gravity), std::vector<double>{0.0, -9.81});
     settings.gravity_x = gravity[0], settings.gravity_z = gravity[1];
     if (section.has("gravity") && section.has("gravity_file"))
         section.problem("gravity", "cmps.gravity_file says it too: give one of them");
@@ -309,7 +316,13 @@ void read_drive(const Section& section, Scene& scene, double depth) {
     if (scene.drive != Drive::waves && !scene.tank && settings.gravity_z > 0)
         section.problem("gravity", "z is up: water would fall out of the flume; [0, -9.81] points down");
     const auto piston = read_table(section, "piston_file", scene.piston_file, 2);
-    read_table(section, "gravity_file", scene.gravity_file, 3);
+    if (const auto gravity = read_table(section, "gravity_file", scene.gravity_file, 3))
+        for (const std::size_t component : {1, 2})
+            for (const double value : gravity->range(component))
+                if (std::abs(value) > most_gravity)
+                    section.problem("gravity_file", fmt::format("{}: {:g} m/s2 in column {}; at most {:g}",
+                                                                scene.gravity_file.string(), value,
+                                                                component + 1, most_gravity));
     if (!scene.piston_file.empty() && scene.drive != Drive::piston)
         section.problem("piston_file", "nothing moves by it: cmps.drive is not \"piston\"");
     scene.boundary = chosen<Boundary>(
@@ -345,16 +358,30 @@ void read_drive(const Section& section, Scene& scene, double depth) {
     scene.viscosity_is_given = section.has("viscosity");
     if (piston && scene.drive == Drive::piston) {
         const auto [least, most] = piston->range(1);
-        scene.piston = {.start = piston->value(1, scene.start.value_or(0.0)),
-                        .least = least,
-                        .most = most,
-                        .fastest = piston->fastest(1),
-                        .period = piston->period(1)};
+        const double fastest = piston->fastest(1), length = scene.onshore - scene.offshore;
+        constexpr double most_speed_ratio = 10.0;  // of sqrt(g d): the jet up its face is 50 depths high
+        if (const double limit = most_speed_ratio * std::sqrt(9.81 * depth); fastest > limit)
+            section.problem(
+                "piston_file",
+                fmt::format("{}: the wall moves at {:g} m/s between two rows; at most {:.3g}, ten "
+                            "times the celerity of long waves",
+                            scene.piston_file.string(), fastest, limit));
+        else if (length > 0 && least < -10.0 * length)
+            section.problem("piston_file",
+                            fmt::format("{}: the wall goes back by {:g} m, more than ten times "
+                                        "the near field's length of {:g} m",
+                                        scene.piston_file.string(), -least, length));
+        else
+            scene.piston = {.start = piston->value(1, scene.start.value_or(0.0)),
+                            .least = least,
+                            .most = most,
+                            .fastest = fastest,
+                            .period = piston->period(1)};
     }
     scene.viscosity = section.number("viscosity", "m2/s", "kinematic; used by the effect viscosity",
-                                     Range::not_negative(), 1e-6);
+                                     Range::between(0, 1e3), 1e-6);
     scene.smagorinsky = section.number("smagorinsky", "-", "constant of the sub-particle turbulence",
-                                       Range::not_negative(), 0.15);
+                                       Range::between(0, 10), 0.15);
 }
 
 void read_output(const common::SceneFile& file, const Section& section, Scene& scene) {

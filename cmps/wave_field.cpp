@@ -12,8 +12,12 @@
 namespace cmps {
 namespace {
 
-constexpr double time_slack = 1e-9;  // s: rounding of window ends
-constexpr std::size_t history = 4;   // samples at or before the present: it and three for its slope
+constexpr double gravity = 9.81;              // m/s2, of boussinesq
+constexpr double most_elevation_ratio = 5.0;  // of the largest depth, or height of dry ground
+constexpr double most_speed_ratio = 5.0;      // of sqrt(g times it)
+constexpr double most_depth = 12e3;           // m: no sea is deeper
+constexpr double time_slack = 1e-9;           // s: rounding of window ends
+constexpr std::size_t history = 4;            // samples at or before the present: it and three for its slope
 
 /// First and second derivative at the nodes of a smooth field on an even or uneven grid (three-point
 /// formulas).
@@ -47,6 +51,12 @@ WaveField::WaveField(common::WindowReader& reader, double x0, double x1, double 
             "the wave windows cover x = {:g} to {:g} m; the moving wall and its zone need {:g} to {:g} m "
             "(cmps.offshore, cmps.relaxation_length)",
             x.front(), x.back(), x0, x1));
+    for (const double value : depth) deepest_ = std::max(deepest_, std::abs(value));
+    if (!(deepest_ <= most_depth))
+        throw common::InputError(
+            fmt::format("{}: dataset /still_water_depth is {:g} m somewhere: no sea is "
+                        "deeper than {:g} m",
+                        reader_.path_of(0).string(), deepest_, most_depth));
     const auto above = [&](double at) {
         return static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), at) - x.begin());
     };
@@ -80,6 +90,8 @@ bool WaveField::receive_next() {
     if (!window) return false;
     const auto time = window->at("/time").as_double();
     const auto eta = window->at("/surface_elevation").as_double(), u = window->at("/velocity").as_double();
+    check_range(*window, "/surface_elevation", eta, most_elevation_ratio * deepest_);
+    check_range(*window, "/velocity", u, most_speed_ratio * std::sqrt(gravity * deepest_));
     if (time.empty() || time.front() > window->t_begin + time_slack ||
         time.back() < window->t_end - time_slack)
         throw common::InputError(
@@ -97,6 +109,18 @@ bool WaveField::receive_next() {
     last_time_ = window->t_end;
     ++next_index_;
     return true;
+}
+
+/// No waves in water, nor ground beside it, are that high or fast: a value damaged where no checksum sees it.
+void WaveField::check_range(const common::Window& window, const std::string& name,
+                            const std::vector<double>& values, double most) const {
+    const auto bad =
+        std::find_if(values.begin(), values.end(), [&](double value) { return !(std::abs(value) <= most); });
+    if (bad == values.end()) return;
+    throw common::InputError(
+        fmt::format("{}: dataset {} is {:g} {} at element {}: no waves in water {:g} m deep exceed {:.3g}",
+                    reader_.path_of(window.index).string(), name, *bad, window.at(name).unit,
+                    bad - values.begin(), deepest_, most));
 }
 
 /// How many samples lie at or before `time`.

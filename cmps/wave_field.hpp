@@ -10,6 +10,7 @@
 
 #include <deque>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "common/window_channel.hpp"
@@ -47,12 +48,15 @@ class WaveField {
         std::vector<double> elevation, velocity;
     };
     bool receive_next();
+    void check_range(const common::Window& window, const std::string& name, const std::vector<double>& values,
+                     double most) const;
     std::size_t samples_until(double time) const;
     std::size_t node_left_of(double x, double& share) const;
 
     common::WindowReader& reader_;
     std::int64_t next_index_ = 0;
     double end_, last_time_ = 0;
+    double deepest_ = 0;  // water or, where it is higher, ground above it, m
     std::size_t first_node_ = 0;
     std::vector<double> x_, depth_;
     std::deque<Sample> samples_;

@@ -15,14 +15,14 @@ TimeSection read_time(const SceneFile& scene) {
 
 double read_water_density(const SceneFile& scene, SharedKey own, SharedKey other) {
     const char* about = "density of water";
+    const Range liquids = Range::between(1.0, 1e5);
     std::optional<double> elsewhere;
     if (scene.has_section(other.section)) {
         const Section section = scene.foreign_section(other.section);
-        if (section.has(other.key)) elsewhere = section.number(other.key, "kg/m3", about, Range::positive());
+        if (section.has(other.key)) elsewhere = section.number(other.key, "kg/m3", about, liquids);
     }
     const Section section = scene.section(own.section);
-    const double density =
-        section.number(own.key, "kg/m3", about, Range::positive(), elsewhere.value_or(1000.0));
+    const double density = section.number(own.key, "kg/m3", about, liquids, elsewhere.value_or(1000.0));
     if (elsewhere && density != *elsewhere)
         section.problem(own.key, fmt::format("{:g} kg/m3, but {}.{} = {:g} kg/m3: it is the same water; give "
                                              "one of them",

@@ -49,13 +49,23 @@ with h5py.File(os.path.join(twice, "window_000000.h5"), "r+") as file:
     file["x"][30] = file["x"][29]
 with h5py.File(os.path.join(cut, "window_000000.h5"), "r+") as file:
     file["time"][-1] = 0.99
+huge = folder_of_waves("huge", 0.06, 1.65, 0.4, 24, 34, 4.0, window=1.0)  # one value that a sound checksum covers
+fast = folder_of_waves("fast", 0.06, 1.65, 0.4, 24, 34, 4.0, window=1.0)
+high = folder_of_waves("high", 0.06, 1.65, 0.4, 24, 34, 4.0, window=1.0)
+with h5py.File(os.path.join(huge, "window_000001.h5"), "r+") as file:
+    file["velocity"][3, 5] = 1e30
+with h5py.File(os.path.join(fast, "window_000000.h5"), "r+") as file:
+    file["velocity"][...] = 1e9
+with h5py.File(os.path.join(high, "window_000000.h5"), "r+") as file:
+    file["surface_elevation"][0, 0] = -50.0
 backwards = os.path.join(FOLDER, "backwards.csv")
 with open(backwards, "w") as file:
     file.write("t,x\n0.0,0.0\n1.0,0.1\n0.5,0.2\n")
 
 nan_inside, piston_through, piston_away = (os.path.join(FOLDER, name) for name in ("nan.csv", "through.csv", "away.csv"))
 shaken = os.path.join(FOLDER, "shaken.csv")
-for path, lines in ((shaken, "0.0,0.0,-9.81\n1.0,0.5,-9.81\n"), (nan_inside, "t,x\n0.0,0.0\nnan,0.1\n1.0,0.2\n"), (piston_through, "0.0,0.0\n2.0,4.5\n"), (piston_away, "0.0,0.5\n2.0,0.5\n")):
+fast_piston, far_piston, strong_gravity = (os.path.join(FOLDER, name) for name in ("fast.csv", "far.csv", "strong.csv"))
+for path, lines in ((fast_piston, "0.0,0.0\n1e-6,0.1\n1.0,0.1\n"), (far_piston, "0.0,0.0\n1e30,-1e30\n"), (strong_gravity, "0.0,0.0,-9.81\n1.0,1e9,-9.81\n"), (shaken, "0.0,0.0,-9.81\n1.0,0.5,-9.81\n"), (nan_inside, "t,x\n0.0,0.0\nnan,0.1\n1.0,0.2\n"), (piston_through, "0.0,0.0\n2.0,4.5\n"), (piston_away, "0.0,0.5\n2.0,0.5\n")):
     with open(path, "w") as file:
         file.write(lines)
 
@@ -136,6 +146,13 @@ cases = [
     ("piston_for_nothing", None, {"cmps": pool + f'piston_file = "{piston_away}"', **no_flow}, "cmps.piston_file: nothing moves by it"),
     ("piston_into_structure", None, {"cmps": wall + f'drive = "piston"\npiston_file = "{piston_through}"\nstructure = [[[29.0, -0.4], [30.0, -0.4], [30.0, 0.2]]]'}, "cmps.piston_file: the moving wall at x = 29.5 m stands in the structure"),
     ("water_behind_piston", None, {"cmps": wall + f'drive = "piston"\npiston_file = "{piston_away}"\nwater = [[[25, -0.4], [31, -0.4], [31, 0], [25, 0]]]'}, "stands behind the piston, which starts at x = 25.5 m"),
+    ("fast_piston", None, {"cmps": wall + f'drive = "piston"\npiston_file = "{fast_piston}"'}, "fast.csv: the wall moves at 100000 m/s between two rows; at most 19.8"),
+    ("far_piston", None, {"cmps": wall + f'drive = "piston"\npiston_file = "{far_piston}"'}, "far.csv: the wall goes back by 1e+30 m, more than ten times the near field's length"),
+    ("strong_gravity", None, {"cmps": pool + f'gravity_file = "{strong_gravity}"', **no_flow}, "strong.csv: 1e+09 m/s2 in column 2; at most 10000"),
+    ("strong_constant_gravity", None, {"cmps": pool + "gravity = [0, -1e30]", **no_flow}, "cmps.gravity"),
+    ("thrown", None, {"cmps": pool + "water_velocity = [[1e30, 0]]", **no_flow}, "cmps.water_velocity: [1e+30, 0] m/s; at most 10000"),
+    ("dense", waves, {"cmps": wall + "density = 1e308"}, "cmps.density"),
+    ("thick", waves, {"cmps": wall + "viscosity = 1e308"}, "cmps.viscosity"),
     ("two_gravities", None, {"cmps": pool + f'gravity = [0, -9.81]\ngravity_file = "{shaken}"', **no_flow}, "cmps.gravity: cmps.gravity_file says it too"),
     ("low_water", waves, {"cmps": wall + "water = [[[25, -0.4], [31, -0.4], [31, -0.15], [25, -0.15]]]"}, "cmps.water: at the moving wall, x = 25 m, it must reach from the bed up to z = 0"),
     ("water_off_the_wall", waves, {"cmps": wall + "water = [[[25.5, -0.4], [31, -0.4], [31, 0], [25.5, 0]]]"}, "cmps.water: at the moving wall, x = 25 m"),
@@ -149,6 +166,9 @@ cases = [
     ("deeper", deeper, {}, "/still_water_depth is 0.5 m at x = 24.35 m, where flume.bed of the scene leaves 0.4 m"),
     ("twice", twice, {}, "twice/window_000000.h5: dataset /x does not increase"),
     ("cut", cut, {}, "cut/window_000000.h5: dataset /time does not reach from t_begin = 0 s to t_end = 1 s"),
+    ("huge", huge, {}, "huge/window_000001.h5: dataset /velocity is 1e+30 m/s at element 608: no waves in water 0.4 m deep exceed 9.9"),
+    ("fast", fast, {}, "fast/window_000000.h5: dataset /velocity is 1e+09 m/s at element 0"),
+    ("high", high, {}, "high/window_000000.h5: dataset /surface_elevation is -50 m at element 0: no waves in water 0.4 m deep exceed 2"),
     ("flat", flat, {}, "the waves never reach cmps.offshore"),
     ("nowhere", os.path.join(FOLDER, "nothing"), {}, "no such folder"),
     ("no_waves", None, {}, "--waves DIR is needed"),

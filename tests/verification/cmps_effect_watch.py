@@ -92,7 +92,10 @@ def of_another_version(whole, scene, waves):
         for key, value in kept.items():
             file["balance"].attrs[key] = value
 
-    for name, change, said in (("another_version", forget, "attribute switched_on is missing"), ("short_balance", shorten, "a dataset has fewer values than are needed")):
+    def throw(file):
+        file["particles/x"][-1] = 1e30
+
+    for name, change, said in (("thrown", throw, "/particles: particle"), ("another_version", forget, "attribute switched_on is missing"), ("short_balance", shorten, "a dataset has fewer values than are needed")):
         out = os.path.join(FOLDER, name)
         os.makedirs(out)
         for path in whole.windows()[:-1] + [os.path.join(whole.out, file) for file in ("state.h5", "run.json")]:
@@ -105,7 +108,7 @@ def of_another_version(whole, scene, waves):
             change(file)
             file.attrs["next_window"] = len(whole.windows()) - 1
         run = Run(name, scene, waves=waves, resume=True)
-        expect(run.status == 2 and f"state.h5: {said}: another version of cmps wrote it" in run.messages, f"state of another version: exit {run.status}, {run.messages.strip()}")
+        expect(run.status == 2 and f"state.h5: {said}" in run.messages and ": it is damaged, or another version of cmps wrote it" in run.messages, f"state {name}: exit {run.status}, {run.messages.strip()}")
 
 
 BEACH = f"[[0.0, {-DEPTH}], [27.0, {-DEPTH}], [32.0, 0.1]]"
