@@ -107,11 +107,15 @@ std::unique_ptr<IncidentWave> incident_wave(const Scene& scene) {
             return std::make_unique<ComponentWave>(std::move(components), waves.position,
                                                    waves.period / 100.0, std::move(bound));
         }
-        case WaveKind::series:
+        case WaveKind::series: {
+            const double begin = scene.grid.offshore_end - waves.position;
+            const WaveDuration duration = record_duration(
+                waves.record, begin, begin + scene.generation_length, waves.period, dispersion, waves.depth);
+            // As long as the record is anywhere in the zone: its repetition has not begun by then.
             return std::make_unique<ComponentWave>(
-                record_components(waves.record_time, waves.record_elevation, waves.record_velocity,
-                                  dispersion, waves.depth),
-                waves.position, waves.period / 100.0);
+                record_components(waves.record, duration.end - duration.begin, dispersion, waves.depth),
+                waves.position, waves.period / 100.0, std::nullopt, duration);
+        }
         case WaveKind::none:
         case WaveKind::solitary:
             break;

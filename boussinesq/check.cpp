@@ -129,6 +129,7 @@ void print_check(const common::SceneFile& file, const Scene& scene, bool all) {
         lines.push_back({"error", fmt::format("about {:.1g} of the wave height, of the cells ({})",
                                               expected.relative_error, expected.error_from)});
     if (!expected.warning.empty()) lines.push_back({"warning", "the run will stop: " + expected.warning});
+    if (!scene.waves.record_note.empty()) lines.push_back({"record", scene.waves.record_note});
     if (!scene.sponge_note.empty()) lines.push_back({"note", scene.sponge_note});
     common::print_check_report(scene.effects, lines);
 }

@@ -100,8 +100,12 @@ void FlowStep::fill_ghosts(WaveState& state) const {
     const auto open = [&](std::size_t inner, double direction, auto ghost_at) {
         const double still = std::max(-bed_.level(inner), 0.0);
         const double speed = direction * 2.0 * (std::sqrt(gravity * h[inner]) - std::sqrt(gravity * still));
+        // The surface goes on level: of equal depths it would follow a sloping bed, and still water would
+        // run.
+        const bool is_wet = h[inner] > flow_.dry_depth;
         for (std::size_t k = 0; k < ghost_cells; ++k) {
-            h[ghost_at(k)] = h[inner];
+            const double rise = is_wet ? bed_.level(ghost_at(k)) - bed_.level(inner) : 0.0;
+            h[ghost_at(k)] = std::max(h[inner] - rise, 0.0);
             q[ghost_at(k)] = h[inner] * speed;
         }
     };

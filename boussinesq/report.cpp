@@ -125,6 +125,7 @@ Report::Report(const std::filesystem::path& folder, const common::SceneFile& fil
         record_.set_figure("waves.ursell",
                            ursell_number(scene.waves.height, scene.waves.length, scene.waves.depth));
     }
+    if (!scene.waves.record_note.empty()) record_.set_note("waves.record", scene.waves.record_note);
     if (!scene.sponge_note.empty()) record_.set_note("shoreward_sponge", scene.sponge_note);
     record_.write_running();
 }

@@ -31,7 +31,9 @@ struct WaveSection {
     SeaState sea;
     bool has_bound_waves = false;  ///< irregular waves to second order
     std::string bound_waves_reason;
-    std::vector<double> record_time, record_elevation, record_velocity;  ///< waves.file
+    WaveRecord record;          ///< waves.file
+    std::string record_note;    ///< its waves' period, and what of it the equations do not carry
+    double share_left_out = 0;  ///< of the record's variance, above kd = 5
     std::vector<double> initial_x, initial_elevation, initial_velocity;  ///< [initial] file
 };
 

@@ -63,15 +63,15 @@ CsvTable read_ordered(const Section& section, const std::filesystem::path& path,
 /// would have broken, water faster than its waves. `mean`: of the elevation; `crossings`: of it, upward.
 void check_record(const Section& section, const std::filesystem::path& path, const CsvTable& table,
                   const WaveSection& waves, double interval, double mean, int crossings) {
-    const auto& time = waves.record_time;
-    const auto& elevation = waves.record_elevation;
+    const auto& time = waves.record.time;
+    const auto& elevation = waves.record.elevation;
     const double fastest = std::sqrt(gravity * waves.depth);
-    for (std::size_t i = 0; i < waves.record_velocity.size(); ++i)
-        if (std::abs(waves.record_velocity[i]) > fastest) {
+    for (std::size_t i = 0; i < waves.record.velocity.size(); ++i)
+        if (std::abs(waves.record.velocity[i]) > fastest) {
             section.problem("file",
                             fmt::format("{}:{}: u = {} m/s, but water outruns no wave: expected |u| up to "
                                         "sqrt(g d) = {:.3g} m/s",
-                                        path.string(), table.lines[i], waves.record_velocity[i], fastest));
+                                        path.string(), table.lines[i], waves.record.velocity[i], fastest));
             return;
         }
     constexpr double fewest_samples = 8.0;  // a crest between two of them is 8 % too low
@@ -139,12 +139,12 @@ void read_series(const Section& section, const Scene& scene, const LinearDispers
     const CsvTable table =
         read_ordered(section, path, {"t", "time", "t_s"}, {"eta", "surface_elevation", "eta_m"});
     if (table.lines.empty()) return;
-    waves.record_time = *table.column({"t", "time", "t_s"});
-    waves.record_elevation = *table.column({"eta", "surface_elevation", "eta_m"});
-    if (const auto* u = table.column(velocity_names)) waves.record_velocity = *u;
+    waves.record.time = *table.column({"t", "time", "t_s"});
+    waves.record.elevation = *table.column({"eta", "surface_elevation", "eta_m"});
+    if (const auto* u = table.column(velocity_names)) waves.record.velocity = *u;
     std::vector<double> intervals;
-    for (std::size_t i = 1; i < waves.record_time.size(); ++i)
-        intervals.push_back(waves.record_time[i] - waves.record_time[i - 1]);
+    for (std::size_t i = 1; i < waves.record.time.size(); ++i)
+        intervals.push_back(waves.record.time[i] - waves.record.time[i - 1]);
     std::vector<double> sorted = intervals;
     std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
                      sorted.end());
@@ -155,11 +155,11 @@ void read_series(const Section& section, const Scene& scene, const LinearDispers
                                                 path.string(), table.lines[i + 1], intervals[i], usual));
             return;
         }
-    if (waves.record_time.front() > scene.time.end)
+    if (waves.record.time.front() > scene.time.end)
         section.problem("file", fmt::format("{}: begins at t = {} s, after the end of the run", path.string(),
-                                            waves.record_time.front()));
+                                            waves.record.time.front()));
     const auto [lowest, highest] =
-        std::minmax_element(waves.record_elevation.begin(), waves.record_elevation.end());
+        std::minmax_element(waves.record.elevation.begin(), waves.record.elevation.end());
     waves.height = *highest - *lowest;
     if (!(waves.height > 0.0)) {
         section.problem("file", fmt::format("{}: eta never changes: no waves", path.string()));
@@ -172,21 +172,33 @@ void read_series(const Section& section, const Scene& scene, const LinearDispers
                                             highest_solitary * waves.depth));
         waves.height = 0.1 * waves.depth;  // so that reading goes on
     }
-    // Mean period from the crossings of the mean.
     double mean = 0;
-    for (const double value : waves.record_elevation)
-        mean += value / static_cast<double>(waves.record_elevation.size());
+    for (const double value : waves.record.elevation)
+        mean += value / static_cast<double>(waves.record.elevation.size());
+    // Waves of the record: rises through its mean, each after a trough of a twentieth of the height, so that
+    // noise in quiet parts counts for nothing.
     int crossings = 0;
-    for (std::size_t i = 1; i < waves.record_elevation.size(); ++i)
-        if (waves.record_elevation[i - 1] < mean && waves.record_elevation[i] >= mean) ++crossings;
-    waves.period = (waves.record_time.back() - waves.record_time.front()) / std::max(crossings, 1);
-    const double exact = airy_wave_number(two_pi / waves.period, waves.depth);
-    if (exact * waves.depth > 5.0 ||
-        !std::isfinite(dispersion.wave_number(two_pi / waves.period, waves.depth))) {
-        section.problem("file",
-                        fmt::format("{}: waves of {:.3g} s on average in {} m of water are kh = {:.2g}; the "
-                                    "equations hold up to about 5",
-                                    path.string(), waves.period, waves.depth, exact * waves.depth));
+    bool was_low = false;
+    for (const double value : waves.record.elevation) {
+        was_low = was_low || value - mean < -0.05 * waves.height;
+        if (was_low && value >= mean) ++crossings, was_low = false;
+    }
+    const RecordPeriod measured = record_period(waves.record, dispersion, waves.depth);
+    waves.period = measured.period;
+    waves.share_left_out = measured.share_left_out;
+    waves.record_note = fmt::format("waves of {:.3g} s (energy mean) come in from t = {:.6g} to {:.6g} s",
+                                    measured.period, waves.record.time.front(), waves.record.time.back());
+    if (measured.share_left_out > 0.001)
+        waves.record_note += fmt::format(
+            "; {:.2g} % of the variance lies above kh = 5, which the equations do not carry, and is left out",
+            100.0 * measured.share_left_out);
+    if (measured.share_left_out > 0.5) {
+        section.problem(
+            "file",
+            fmt::format("{}: {:.0f} % of its variance in {} m of water lies above kh = 5, up to which "
+                        "the equations hold: waves of less than {:.3g} s",
+                        path.string(), 100.0 * measured.share_left_out, waves.depth,
+                        two_pi / dispersion.angular_frequency(5.0 / waves.depth, waves.depth)));
         waves.period = 0;
         return;
     }

@@ -17,8 +17,12 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 }
 
 ComponentWave::ComponentWave(std::vector<WaveComponent> components, double position, double interval,
-                             std::optional<BoundWaves> bound)
-    : components_(std::move(components)), position_(position), interval_(interval), bound_(std::move(bound)) {
+                             std::optional<BoundWaves> bound, WaveDuration duration)
+    : components_(std::move(components)),
+      position_(position),
+      interval_(interval),
+      bound_(std::move(bound)),
+      duration_(duration) {
     const auto count = static_cast<Eigen::Index>(components_.size());
     shares_.resize(3 + (bound_ ? bound_->share.rows() : 0), count);
     for (Eigen::Index n = 0; n < count; ++n) {
@@ -34,6 +38,11 @@ ComponentWave::ComponentWave(std::vector<WaveComponent> components, double posit
 void ComponentWave::evaluate(double t, std::span<const double> x, std::span<double> elevation,
                              std::span<double> velocity) const {
     if (x.empty()) return;
+    if (t < duration_.begin || t > duration_.end) {
+        std::fill(elevation.begin(), elevation.end(), 0.0);
+        std::fill(velocity.begin(), velocity.end(), 0.0);
+        return;
+    }
     const auto places = static_cast<Eigen::Index>(x.size());
     const double spacing = places > 1 ? (x.back() - x.front()) / static_cast<double>(places - 1) : 0.0;
     if (turn_real_.size() != shares_.cols() || spacing != turn_spacing_) {
@@ -174,35 +183,47 @@ std::vector<WaveComponent> sea_components(const SeaState& sea, const LinearDispe
     return components;
 }
 
-std::vector<WaveComponent> record_components(const std::vector<double>& time,
-                                             const std::vector<double>& elevation,
-                                             const std::vector<double>& velocity,
-                                             const LinearDispersion& dispersion, double depth) {
-    const double duration = time.back() - time.front();
-    double shortest = duration;
-    for (std::size_t i = 1; i < time.size(); ++i) shortest = std::min(shortest, time[i] - time[i - 1]);
-    const double span = 1.25 * duration;  // the silent rest keeps the record from following itself
-    std::size_t count = 64;
-    while (span / static_cast<double>(count) > shortest && count < (1u << 16)) count *= 2;
-    const double dt = span / static_cast<double>(count);
+namespace {
 
-    const auto transform = [&](const std::vector<double>& values) {
-        std::vector<double> data(count, 0.0);
-        const std::unique_ptr<gsl_interp_accel, void (*)(gsl_interp_accel*)> lookup(gsl_interp_accel_alloc(),
-                                                                                    gsl_interp_accel_free);
-        const std::unique_ptr<gsl_spline, void (*)(gsl_spline*)> spline(
-            gsl_spline_alloc(gsl_interp_cspline, time.size()), gsl_spline_free);
-        gsl_spline_init(spline.get(), time.data(), values.data(), time.size());
-        for (std::size_t i = 0; i < count; ++i) {
-            const double t = time.front() + static_cast<double>(i) * dt;
-            if (t <= time.back()) data[i] = gsl_spline_eval(spline.get(), t, lookup.get());
-        }
-        gsl_fft_real_radix2_transform(data.data(), 1, count);
-        return data;
-    };
-    const std::vector<double> eta = transform(elevation);
-    const std::vector<double> u = velocity.empty() ? std::vector<double>{} : transform(velocity);
-    const double scale = 2.0 / static_cast<double>(count);
+constexpr double largest_kd = 5.0;  // of waves that the equations carry
+
+/// Half-complex spectrum of values that begin at time.front() and are silent after time.back(), in GSL's
+/// order.
+std::vector<double> transform(const std::vector<double>& time, const std::vector<double>& values, double span,
+                              std::size_t count) {
+    std::vector<double> data(count, 0.0);
+    const std::unique_ptr<gsl_interp_accel, void (*)(gsl_interp_accel*)> lookup(gsl_interp_accel_alloc(),
+                                                                                gsl_interp_accel_free);
+    const std::unique_ptr<gsl_spline, void (*)(gsl_spline*)> spline(
+        gsl_spline_alloc(gsl_interp_cspline, time.size()), gsl_spline_free);
+    gsl_spline_init(spline.get(), time.data(), values.data(), time.size());
+    for (std::size_t i = 0; i < count; ++i) {
+        const double t = time.front() + span * static_cast<double>(i) / static_cast<double>(count);
+        if (t <= time.back()) data[i] = gsl_spline_eval(spline.get(), t, lookup.get());
+    }
+    gsl_fft_real_radix2_transform(data.data(), 1, count);
+    return data;
+}
+
+/// Samples over `span`, a power of two, at least as close as the record's own (up to a million).
+std::size_t sample_count(const std::vector<double>& time, double span) {
+    double shortest = time.back() - time.front();
+    for (std::size_t i = 1; i < time.size(); ++i) shortest = std::min(shortest, time[i] - time[i - 1]);
+    std::size_t count = 64;
+    while (span / static_cast<double>(count) > shortest && count < (1u << 20)) count *= 2;
+    return count;
+}
+
+}  // namespace
+
+std::vector<WaveComponent> record_components(const WaveRecord& record, double span,
+                                             const LinearDispersion& dispersion, double depth) {
+    const std::size_t count = sample_count(record.time, span);
+    const std::vector<double> eta = transform(record.time, record.elevation, span, count);
+    const std::vector<double> u = record.velocity.empty()
+                                      ? std::vector<double>{}
+                                      : transform(record.time, record.velocity, span, count);
+    const double begin = record.time.front(), scale = 2.0 / static_cast<double>(count);
     std::vector<WaveComponent> components;
     double largest = 0;
     for (std::size_t n = 1; n < count / 2; ++n)
@@ -211,15 +232,15 @@ std::vector<WaveComponent> record_components(const std::vector<double>& time,
         const double w = two_pi * static_cast<double>(n) / span;
         const double k = n == 0 ? 0.0 : dispersion.wave_number(w, depth);
         const double real = eta[n], imaginary = n == 0 ? 0.0 : eta[count - n];
-        // What the equations do not carry, and what is no more than the record's rounding, is left out.
-        if (!std::isfinite(k) || k * depth > 5.0 || (n > 0 && std::hypot(real, imaginary) < 1e-5 * largest))
+        if (!std::isfinite(k) || k * depth > largest_kd ||
+            (n > 0 && std::hypot(real, imaginary) < 1e-5 * largest))
             continue;
         // sum of Re(Z e^{i w (t - t0)}): k x - w t + phase with phase = w t0 - arg Z
         WaveComponent c{};
         c.angular_frequency = w;
         c.wave_number = k;
         c.elevation_amplitude = (n == 0 ? 0.5 : 1.0) * scale * std::hypot(real, imaginary);
-        c.elevation_phase = w * time.front() - std::atan2(imaginary, real);
+        c.elevation_phase = w * begin - std::atan2(imaginary, real);
         if (u.empty()) {
             c.velocity_amplitude =
                 c.elevation_amplitude * (n == 0 ? std::sqrt(gravity / depth) : w / (k * depth));
@@ -227,11 +248,35 @@ std::vector<WaveComponent> record_components(const std::vector<double>& time,
         } else {
             const double ur = u[n], ui = n == 0 ? 0.0 : u[count - n];
             c.velocity_amplitude = (n == 0 ? 0.5 : 1.0) * scale * std::hypot(ur, ui);
-            c.velocity_phase = w * time.front() - std::atan2(ui, ur);
+            c.velocity_phase = w * begin - std::atan2(ui, ur);
         }
         components.push_back(c);
     }
     return components;
+}
+
+WaveDuration record_duration(const WaveRecord& record, double from, double to, double period,
+                             const LinearDispersion& dispersion, double depth) {
+    const double slowest = dispersion.group_speed(largest_kd / depth, depth);
+    return {record.time.front() - std::max(-from, 0.0) / slowest - period,
+            record.time.back() + std::max(to, 0.0) / slowest + period};
+}
+
+RecordPeriod record_period(const WaveRecord& record, const LinearDispersion& dispersion, double depth) {
+    const double span = 1.25 * (record.time.back() - record.time.front());
+    const std::size_t count = sample_count(record.time, span);
+    const std::vector<double> eta = transform(record.time, record.elevation, span, count);
+    double all = 0, carried = 0, first_moment = 0;
+    for (std::size_t n = 1; n < count / 2; ++n) {
+        const double w = two_pi * static_cast<double>(n) / span;
+        const double energy = eta[n] * eta[n] + eta[count - n] * eta[count - n];
+        all += energy;
+        const double k = dispersion.wave_number(w, depth);
+        if (!std::isfinite(k) || k * depth > largest_kd) continue;
+        carried += energy;
+        first_moment += w * energy;
+    }
+    return {carried > 0 ? two_pi * carried / first_moment : 0.0, all > 0 ? 1.0 - carried / all : 0.0};
 }
 
 }  // namespace boussinesq

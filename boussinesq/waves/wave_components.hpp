@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -19,6 +20,11 @@ struct WaveComponent {
     double velocity_amplitude, velocity_phase;    ///< m/s, rad
 };
 
+/// Waves come in from `begin` to `end` (s) only; before and after there is none, to the last bit.
+struct WaveDuration {
+    double begin = -std::numeric_limits<double>::infinity(), end = std::numeric_limits<double>::infinity();
+};
+
 /// Sum of components, and of the waves bound to them; x is counted from `position`.
 ///
 /// A sum over hundreds of components at every cell and step would cost more than the flow itself, so it is
@@ -28,7 +34,7 @@ struct WaveComponent {
 class ComponentWave : public IncidentWave {
  public:
     ComponentWave(std::vector<WaveComponent> components, double position, double interval,
-                  std::optional<BoundWaves> bound = {});
+                  std::optional<BoundWaves> bound = {}, WaveDuration duration = {});
     void at(double t, std::span<const double> x, std::span<double> elevation,
             std::span<double> velocity) const override;
     const std::vector<WaveComponent>& components() const { return components_; }
@@ -39,6 +45,7 @@ class ComponentWave : public IncidentWave {
     std::vector<WaveComponent> components_;
     double position_, interval_;
     std::optional<BoundWaves> bound_;
+    WaveDuration duration_;
     Eigen::MatrixXd
         shares_;  ///< rows: elevation, velocity (two), shares of the bound waves; a column a component
     /// Values at four neighbouring times, by number of the interval; filled on demand.
@@ -72,12 +79,31 @@ double spectral_shape(const SeaState& sea, double frequency);
 std::vector<WaveComponent> sea_components(const SeaState& sea, const LinearDispersion& dispersion,
                                           double depth);
 
-/// Components of a record of the incident wave at one place, by FFT after resampling with a cubic spline.
-/// `velocity` may be empty: then linear theory gives it. The record is zero before its first and after its
-/// last time.
-std::vector<WaveComponent> record_components(const std::vector<double>& time,
-                                             const std::vector<double>& elevation,
-                                             const std::vector<double>& velocity,
+/// A record of the incident wave at one place.
+struct WaveRecord {
+    std::vector<double> time, elevation;  ///< s, m
+    std::vector<double> velocity;         ///< m/s; empty: linear theory gives it
+};
+
+/// Components of a record, by FFT after resampling with a cubic spline over `span` seconds, of which it fills
+/// the first; the rest is silent. A sum of them repeats itself every `span`: see record_duration. Left out
+/// are kd > 5, which the equations do not carry, and what is no more than the record's rounding.
+std::vector<WaveComponent> record_components(const WaveRecord& record, double span,
                                              const LinearDispersion& dispersion, double depth);
+
+/// When a record's waves are somewhere in [from, to], places counted from where it was taken (m): from its
+/// first time, less what its slowest waves (kd = 5) need from the place farthest offshore, to its last and
+/// what they need to the place farthest shoreward; a period more at both ends for the ripples of a record
+/// that begins or ends amid a wave.
+WaveDuration record_duration(const WaveRecord& record, double from, double to, double period,
+                             const LinearDispersion& dispersion, double depth);
+
+/// Energy mean period of a record, m0 / m1 of its spectrum up to kd = 5, s, and the share of its variance
+/// beyond, which the equations do not carry. Quiet parts and a silent lead-in have no weight; a single pulse
+/// has the period of a wave of which it is the crest.
+struct RecordPeriod {
+    double period, share_left_out;
+};
+RecordPeriod record_period(const WaveRecord& record, const LinearDispersion& dispersion, double depth);
 
 }  // namespace boussinesq

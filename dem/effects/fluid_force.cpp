@@ -57,7 +57,9 @@ void find_places(const std::vector<Vector>& in_body, const Rotation& turn, const
 /// Velocity of the water relative to each sphere, and the forces of its acceleration and weight, eqs. (10)
 /// and (11).
 void meet_water(Spheres& spheres, double inertia, const Vector& buoyancy, FluidLoad& load) {
-    auto& [arm, relative, about, force, slope, steepening, x, z, water] = spheres;
+    Column &relative = spheres.relative, &force = spheres.force;
+    const Column& arm = spheres.arm;
+    const WaterSamples& water = spheres.water;
     const double vx = load.velocity.x(), vy = load.velocity.y(), vz = load.velocity.z();
     const double wx = load.spin.x(), wy = load.spin.y(), wz = load.spin.z();
     const double bx = buoyancy.x(), by = buoyancy.y(), bz = buoyancy.z();
@@ -123,8 +125,10 @@ Rotation weighted_products(const std::vector<double>& weight, const Column& a, c
 /// Drag of each sphere, eqs. (10) and (12), its slopes, and the sums of force and torque.
 void add_drag(Spheres& spheres, double drag, double drag_coefficient, double viscous, FluidLoad& load) {
     double fx = 0, fy = 0, fz = 0, tx = 0, ty = 0, tz = 0;
-    auto& [arm, relative, about, force, slope, steepening, x_places, z_places, water] = spheres;
-    const std::vector<double>& wet = water.wet;
+    Column& about = spheres.about;
+    const Column &arm = spheres.arm, &relative = spheres.relative, &force = spheres.force;
+    std::vector<double>&slope = spheres.slope, &steepening = spheres.steepening;
+    const std::vector<double>& wet = spheres.water.wet;
     const std::size_t count = spheres.size();
 #pragma omp simd reduction(+ : fx, fy, fz, tx, ty, tz)
     for (std::size_t k = 0; k < count; ++k) {

@@ -11,8 +11,8 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
-set(CMAKE_EXE_LINKER_FLAGS_INIT "-Wl,-rpath-link,${sysroot}/usr/lib/aarch64-linux-gnu:${sysroot}/lib/aarch64-linux-gnu")
-# FindHDF5 asks a compiler wrapper, of which there is none for another machine.
-set(HDF5_C_COMPILER_NO_INTERROGATE ON)
-set(HDF5_C_INCLUDE_DIR "${sysroot}/usr/include/hdf5/serial" CACHE PATH "")
+set(CMAKE_EXE_LINKER_FLAGS_INIT "-L${sysroot}/usr/lib/aarch64-linux-gnu/hdf5/serial -L${sysroot}/usr/lib/aarch64-linux-gnu -Wl,-rpath-link,${sysroot}/usr/lib/aarch64-linux-gnu:${sysroot}/lib/aarch64-linux-gnu")
+# FindHDF5 asks a compiler wrapper, of which there is none for another machine: it is told.
 set(HDF5_hdf5_LIBRARY "${sysroot}/usr/lib/aarch64-linux-gnu/hdf5/serial/libhdf5.so" CACHE FILEPATH "")
+set(CMAKE_CXX_STANDARD_INCLUDE_DIRECTORIES
+    "${sysroot}/usr/include/hdf5/serial" "${sysroot}/usr/include/aarch64-linux-gnu")

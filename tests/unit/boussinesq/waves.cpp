@@ -138,13 +138,22 @@ TEST(RecordComponents, GiveTheRecordBack) {
         time.push_back(t);
         elevation.push_back(0.02 * std::exp(-std::pow((t - 20.0) / 6.0, 2)) * std::cos(3.0 * t));
     }
-    const ComponentWave wave(record_components(time, elevation, {}, LinearDispersion{.alpha = 1.153}, 0.8),
-                             7.0, 0.01);
+    const LinearDispersion dispersion{.alpha = 1.153};
+    const WaveRecord record{.time = time, .elevation = elevation, .velocity = {}};
+    const WaveDuration duration = record_duration(record, -2.0, 5.0, 2.1, dispersion, 0.8);
+    const ComponentWave wave(record_components(record, duration.end - duration.begin, dispersion, 0.8), 7.0,
+                             0.01, std::nullopt, duration);
     std::vector<double> x{7.0}, e(1), u(1);
     for (const double t : {10.0, 18.3, 24.7, 30.0}) {
         wave.at(t, x, e, u);
         EXPECT_NEAR(e[0], 0.02 * std::exp(-std::pow((t - 20.0) / 6.0, 2)) * std::cos(3.0 * t),
                     2e-5);  // a thousandth of the height: splines and left-out lines
+    }
+    // Once it is over it is over: to the last bit, at any later time.
+    for (const double t : {duration.begin - 0.1, duration.end + 0.1, 52.0, 60.0, 100.0}) {
+        wave.at(t, x, e, u);
+        EXPECT_EQ(e[0], 0.0) << t;
+        EXPECT_EQ(u[0], 0.0) << t;
     }
 }
 

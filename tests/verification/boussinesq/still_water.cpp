@@ -10,8 +10,11 @@ namespace {
 using namespace boussinesq_test;
 
 /// Largest speed after `end` seconds of a lake with its surface at `level`.
-double speed_of_rest(const Polyline& bed, double spacing, double level, bool dispersion, double end = 20.0) {
-    Flume flume(bed, spacing, scaled(1.0), {.dispersion = dispersion, .shoreline = true});
+double speed_of_rest(const Polyline& bed, double spacing, double level, bool dispersion, double end = 20.0,
+                     boussinesq::End ends = boussinesq::End::wall) {
+    boussinesq::FlowParameters parameters = scaled(1.0);
+    parameters.offshore = parameters.shoreward = ends;
+    Flume flume(bed, spacing, parameters, {.dispersion = dispersion, .shoreline = true});
     flume.start([&](double) { return level; }, [](double) { return 0.0; });
     const double water = flume.water();
     flume.run_until(end);
@@ -61,6 +64,20 @@ TEST(StillWater, WithVerticalStepsAndNeedles) {
 TEST(StillWater, AtAnyLevel) {
     for (const double level : {-0.9, -0.37, 0.21, 0.6})
         EXPECT_LT(speed_of_rest(rough_bed(7, 1.0), 0.05, level, true, 10.0), round_off) << level;
+}
+
+// The surface beyond an open end is level, whatever the bed does there: sloping up, down, rough, a beach, an
+// island.
+TEST(StillWater, WithOpenEnds) {
+    for (const Polyline& bed :
+         {Polyline{{0, -1}, {10, -0.6}}, Polyline{{0, -0.4}, {10, -1}}, rough_bed(3, 0.5),
+          Polyline{{0, -1}, {10, 0.2}}, Polyline{{0, -1}, {4, 0.1}, {5, 0.1}, {10, -0.9}}})
+        for (const bool dispersion : {false, true}) {
+            const double speed = speed_of_rest(bed, 0.05, 0.0, dispersion, 20.0, boussinesq::End::open);
+            std::printf("    open ends, bed to %.2f m, dispersion %d: %.1e m/s\n", bed.back()[1], dispersion,
+                        speed);
+            EXPECT_LT(speed, round_off);
+        }
 }
 
 }  // namespace
