@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "common/digest.hpp"
 #include "common/errors.hpp"
 #include "common/window_channel.hpp"
 #include "dem/sound_state.hpp"
@@ -219,6 +220,24 @@ Snapshot read_start(const std::filesystem::path& from, const Scene& scene) {
             fmt::format("{}: holds t = {} s only; dem.restart.time = {} s needs the window of that instant",
                         from.string(), snapshot.t, *scene.restart_time));
     return snapshot;
+}
+
+std::string rest_digest(const Scene& scene) {
+    const auto of = [](const Vector& v) { return fmt::format("{} {} {} ", v.x(), v.y(), v.z()); };
+    const Material& material = scene.material;
+    const Water& water = scene.water;
+    const UniformWater& uniform = scene.uniform_water;
+    const Effects& effects = scene.effects;
+    return common::digest_of(of(scene.gravity) + of(uniform.velocity) + of(uniform.acceleration) +
+                             fmt::format("{} {} {} {} {} {} {} ", material.young_modulus,
+                                         material.poisson_ratio, material.friction, material.damping_ratio,
+                                         static_cast<int>(scene.contact), scene.reference_overlap,
+                                         scene.still_outside) +
+                             fmt::format("{} {} {} {} ", water.density, water.viscosity,
+                                         water.added_mass_coefficient, water.drag_coefficient) +
+                             fmt::format("{} {} {} {} {} {}", scene.sleep.rest_time,
+                                         scene.sleep.rest_displacement, scene.sleep.wake_load,
+                                         effects.fluid_force, effects.tangential_history, effects.sleeping));
 }
 
 void restore(Simulation& simulation, const Snapshot& snapshot) {

@@ -42,6 +42,9 @@ Wires kept_wires(const Blocks& blocks, const Scene& scene, const Wires& earlier)
 /// Throws common::InputError when it belongs to another scene.
 Snapshot read_start(const std::filesystem::path& from, const Scene& scene);
 
+/// Digest of the rules by which a block at rest stays at rest: material, contacts, weight, water, sleeping.
+std::string rest_digest(const Scene& scene);
+
 /// Puts poses, speeds and contacts of a snapshot into the simulation.
 void restore(Simulation& simulation, const Snapshot& snapshot);
 

@@ -33,8 +33,9 @@ void Report::add_time(const std::string& phase, double seconds) {
     if (phase == "steps") stepping_seconds_ += seconds;
 }
 
-void Report::set_first_energy(const EnergyBudget& energy) {
-    first_energy_ = energy;
+void Report::begin_books(const Simulation& simulation) {
+    first_energy_ = simulation.energy();
+    first_block_steps_ = simulation.awake_block_steps();
 }
 
 double exchanged_energy(const EnergyBudget& energy, const EnergyBudget& first, double trifle) {

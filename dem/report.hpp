@@ -15,8 +15,8 @@ class Report {
  public:
     Report(const std::filesystem::path& folder, const common::SceneFile& file, const Scene& scene,
            const std::string& scene_digest, const std::string& input_digest);
-    /// The energies that later balances are held against.
-    void set_first_energy(const EnergyBudget& energy);
+    /// Later balances are held against the energies of now.
+    void begin_books(const Simulation& simulation);
     /// Looks at the stability limit of the present contacts and at the energy budget (at every sample).
     /// Throws common::RunError when the step stays past the limit or the budget does not close: the run is
     /// unstable.

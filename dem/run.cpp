@@ -159,8 +159,9 @@ std::string scene_digest_of(const common::SceneFile& file, const common::SceneFi
 
 common::DataFile state_of(const Simulation& simulation, const PackedPoses& packed, const Scene& scene,
                           const Report& report) {
-    auto state =
-        to_data_file(take_snapshot(simulation, packed, placement_digest(scene.placed, scene.surroundings)));
+    Snapshot snapshot = take_snapshot(simulation, packed, placement_digest(scene.placed, scene.surroundings));
+    snapshot.rest_digest = rest_digest(scene);
+    auto state = to_data_file(snapshot);
     report.store(state);
     return state;
 }
@@ -221,7 +222,7 @@ void pack(const common::StageCommand& command, const common::SceneFile& file, co
         WindowOutput output;
         const PackedPoses placed = poses_of(simulation->blocks);
         simulation->start(0);
-        report.set_first_energy(simulation->energy());
+        report.begin_books(*simulation);
         output.record(*simulation, placed);
         settle(*simulation, scene.packing, "packing", [&](double t) {
             output.record(*simulation, placed);
@@ -288,10 +289,16 @@ void run(const common::StageCommand& command, const common::SceneFile& file, con
             flow.require_cover(start.simulation->blocks);
             if (span && span->grid && start.simulation->water() != nullptr)
                 start.simulation->water()->set_motion(*span->grid);
-            const Wires mounted = start.simulation->wires;
-            start.simulation->blocks_were_placed(begin);
-            report_breaks(mounted, start.simulation->wires, report);
-            report.set_first_energy(start.simulation->energy());
+            if (start.state && start.simulation->wires.are_those_of(start.state->wires)) {
+                // Nothing is new: to the bit as if the earlier run had gone on.
+                start.simulation->mount_wires(start.state->wires);
+                restore(*start.simulation, *start.state);
+            } else {
+                const Wires mounted = start.simulation->wires;
+                start.simulation->blocks_were_placed(begin);
+                report_breaks(mounted, start.simulation->wires, report);
+            }
+            report.begin_books(*start.simulation);
         }
         Simulation& simulation = *start.simulation;
         folder.write_geometry(

@@ -199,6 +199,7 @@ DataFile to_data_file(const Snapshot& snapshot) {
     const std::size_t count = blocks.size();
     const auto& memory = snapshot.memory;
     file.attributes = {{"placement_digest", snapshot.placement_digest},
+                       {"rest_digest", snapshot.rest_digest},
                        {"is_packing", static_cast<std::int64_t>(snapshot.is_packing)},
                        {"time", snapshot.t},
                        {"dissipated", memory.dissipated},
@@ -242,6 +243,7 @@ Snapshot snapshot_from(const DataFile& file) {
     Snapshot snapshot;
     snapshot.t = file.number("time");
     snapshot.placement_digest = file.text("placement_digest");
+    snapshot.rest_digest = file.text("rest_digest");
     snapshot.is_packing = file.integer("is_packing") != 0;
     Blocks& blocks = snapshot.blocks;
     for (const auto shape : file.at("/blocks/shape").integers()) blocks.shape.push_back(shape);

@@ -20,7 +20,8 @@ struct Snapshot {
     double t = 0;
     bool is_packing = false;       ///< written by `dem pack`: nothing but weight has acted yet
     std::string placement_digest;  ///< of shapes, places, mound and walls: states of other scenes are refused
-    Blocks blocks;                 ///< without shapes
+    std::string rest_digest{};  ///< of what lets a sleeper lie: with other rules it is woken; of a state only
+    Blocks blocks;              ///< without shapes
     PackedPoses packed;
     Wires wires;
     Simulation::Memory memory{};

@@ -78,6 +78,9 @@ Start start_from(const std::filesystem::path& from, const Scene& scene) {
     }
     require_kept_rest_lengths(scene, snapshot.wires);
     start.t = snapshot.t;
+    // On a clock set anew, or with blocks asleep by other rules, it begins afresh; so does a window's
+    // instant.
+    if (snapshot.rest_digest == rest_digest(scene) && !scene.restart_clock) start.state = snapshot;
     start.earlier_wires = std::move(snapshot.wires);
     begin_books(snapshot.memory, scene.restart_clock.has_value());
     restore(*start.simulation, snapshot);
@@ -117,6 +120,7 @@ void calm_down(Start& start, const Scene& scene, double begin, common::Progress&
         start.simulation->water()->waves_reach_blocks = waves_reach_blocks;
     take_over(*start.simulation, poses_of(settled->blocks), settled->memory().pairs);
     start.earlier_wires = settled->wires;
+    start.state.reset();
     start.calm = record;
     if (scene.wires.put_back.empty())
         progress.say(fmt::format("blocks settled in {:.2f} s", record.settling));

@@ -25,7 +25,8 @@ struct Start {
     PackedPoses packed;
     std::optional<double> t{};             ///< of an earlier run; a packing has none
     std::optional<Wires> earlier_wires{};  ///< those of an earlier run
-    std::optional<CalmRecord> calm{};      ///< when blocks have settled, and some may have been put back
+    std::optional<Snapshot> state{};   ///< of an earlier run, when this one may go on from it as it stands
+    std::optional<CalmRecord> calm{};  ///< when blocks have settled, and some may have been put back
     std::string
         without_springs{};  ///< why contacts begin without their tangential springs; empty: they do not
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 namespace dem {
 
@@ -19,6 +20,14 @@ void Wires::add(std::uint32_t a, std::uint32_t sphere_of_a, std::uint32_t b, std
     tension.push_back(0);
     broken_at.push_back(-1);
     largest_tension.push_back(0);
+}
+
+bool Wires::are_those_of(const Wires& other) const {
+    const auto constants = [](const Wires& w) {
+        return std::tie(w.law, w.longest_stretch, w.block_a, w.sphere_a, w.block_b, w.sphere_b, w.rest_length,
+                        w.stiffness, w.image_offset);
+    };
+    return constants(*this) == constants(other);
 }
 
 double Wires::tension_at(std::size_t wire, double r) const {

@@ -31,6 +31,8 @@ struct Wires {
     double energy_of_broken = 0;          ///< elastic energy lost when wires broke, J
 
     std::size_t size() const { return block_a.size(); }
+    /// Whether the same wires hang here as there, whatever has become of them.
+    bool are_those_of(const Wires& other) const;
     void add(std::uint32_t a, std::uint32_t sphere_of_a, std::uint32_t b, std::uint32_t sphere_of_b,
              double r0, double k_n, double offset_of_image = 0);
     /// Adds forces and torques of the intact ones among `which` to those blocks that are wanted, in order of

@@ -1,4 +1,5 @@
 """Same bytes for one and two threads, with and without an interruption, and for any window length; restarts with changes."""
+import glob
 import os
 import signal
 import subprocess
@@ -68,6 +69,53 @@ check.true("packs", packed.status == 0, packed.message)
 from_packing = run(SCENE, "--flow", flow, "--from", os.path.join(packed.folder, "state.h5"))
 check.true("a run from the stored packing equals one that packs itself",
            np.array_equal(from_packing.series("/blocks/position"), whole.series("/blocks/position")), from_packing.message)
+
+# A state with nothing changed: to the bit as if the run had not ended, with and without a flow, and with blocks asleep.
+def goes_on(what, text, end, *arguments):
+    """`text` to `end` in one go, and to half of it and on from the state: windows of the second half, and the last state."""
+    full = run(text.replace("END", repr(end)), *arguments)
+    first = run(text.replace("END", repr(end / 2)), *arguments)
+    second = run(text.replace("END", repr(end)), *arguments, "--from", os.path.join(first.folder, "state.h5"))
+    check.true(f"{what}: runs on", second.status == 0, second.message)
+    halves = len(glob.glob(os.path.join(first.folder, "window_*.h5")))
+    different = []
+    for k, path in enumerate(sorted(glob.glob(os.path.join(second.folder, "window_*.h5")))):
+        different += differing(path, os.path.join(full.folder, f"window_{halves + k:06d}.h5"))
+    different += differing(os.path.join(second.folder, "state.h5"), os.path.join(full.folder, "state.h5"))
+    check.true(f"{what}: every dataset of {k + 1} windows and of the state is the same to the bit", not different, f"{different}")
+    return full
+
+
+def differing(path, other):
+    names = []
+    with h5py.File(path) as a, h5py.File(other) as b:
+        a.visititems(lambda name, item: names.append(name) if isinstance(item, h5py.Dataset) and not np.array_equal(item[()], b[name][()], equal_nan=True) else None)
+    return names
+
+
+goes_on("armour in waves", small_armour("END", linked_row=3), 2.0, "--flow", flow)
+PLATES = """
+[time]
+end = END
+window = 0.3
+[dem]
+width = 0.4
+sides = "walls"
+current = [0.25, 0.0, 0.0]
+[dem.blocks]
+shape = "beehive24"
+rows = 3
+columns = 6
+origin = [0.3, 0.05]
+pitch = [0.055, 0.055]
+[dem.mound]
+profile = [[0.0, -0.2], [0.4, -0.2]]
+roughness = 0.002
+[[wires.along]]
+rows = [1, 2, 3]
+"""
+plates = goes_on("18 plates in a current, wired", PLATES, 1.2)
+check.true("some of them sleep at the turn", plates.series("/blocks/asleep").max() > 0, f"{plates.series('/blocks/asleep')[::4]}")
 
 # Restart with changes: row 3 put back, links along row 2 added, from a stored instant inside a window.
 LAYOUT = "[wires.put_back]\nrows = [3]\n[[wires.along]]\nrows = [2, 3]\n"
