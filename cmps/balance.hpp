@@ -38,8 +38,9 @@ class Balance {
     std::size_t initial_fluid_ = 0, in_solid_ = 0, outside_ = 0;
     double initial_volume_ = 0, volume_drift_ = 0, largest_volume_drift_ = 0;
     double initial_area_ = 0;  // of the polygons of water; 0: none are given
-    double initial_energy_ = 0, energy_gain_ = 0, largest_energy_gain_ = 0;
-    Work work_;  // over energy_scale()
+    double initial_energy_ = 0, energy_gain_ = 0, largest_energy_gain_ = 0;  // against the start's
+    double lowest_energy_gain_ = 0, largest_energy_regain_ = 0;              // rise from the least there was
+    Work work_;                                                              // over energy_scale()
 };
 
 }  // namespace cmps

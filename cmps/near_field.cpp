@@ -41,14 +41,16 @@ NearField::NearField(const Settings& chosen, Particles initial)
     first_speed_ = largest_speed_;
 }
 
+double NearField::step_of_celerity(double gravity) const {
+    const double g = gravity > 0 ? gravity : 9.81, l0 = settings.spacing;
+    return 0.4 * l0 / std::sqrt(g * std::max(settings.depth, l0));
+}
+
 double NearField::largest_step() const {
     const double l0 = settings.spacing;
-    const double g = std::hypot(settings.gravity_x, settings.gravity_z);
-    double step = 0.4 * l0 / std::sqrt(g * std::max(settings.depth, l0));
+    double step = step_of_celerity(std::hypot(settings.gravity_x, settings.gravity_z));
     if (largest_speed_ > 0) step = std::min(step, settings.courant * l0 / largest_speed_);
     if (largest_acceleration_ > 0) step = std::min(step, 0.25 * std::sqrt(l0 / largest_acceleration_));
-    // water at rest that weighs nothing: as if it did, for a wall may come
-    if (!std::isfinite(step)) step = 0.4 * l0 / std::sqrt(9.81 * std::max(settings.depth, l0));
     step *= settings.time_step_factor;
     for (const auto& effect : effects) step = std::min(step, effect->longest_step(*this));
     return step;

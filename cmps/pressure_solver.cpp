@@ -98,13 +98,15 @@ SolveReport PressureSolver::iterate(const SparseMatrix& matrix, const std::vecto
     double* const p = direction_.data();
     double* const q = product_.data();
     double* const z = preconditioned_.data();
-    const double target =
+    double target =
         tolerance_ * std::sqrt(sum_over_rows(rows, [&](std::size_t i) { return b[i] * b[i]; }));
     multiply(matrix, x, product_);
     double norm = std::sqrt(sum_over_rows(rows, [&](std::size_t i) {
         r[i] = b[i] - q[i];
         return r[i] * r[i];
     }));
+    // where next to nothing is left to solve for, the rounding of the guess is as near as one comes
+    target = std::max(target, 1e-12 * norm);
     if (norm > target) {
         build();
         double previous = 0;

@@ -1,5 +1,8 @@
 #include "cmps/effects/gravity_history.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace cmps {
 namespace {
 
@@ -11,6 +14,18 @@ std::array<double, 2> sums_of_velocity(const Particles& particles) {
 }
 
 }  // namespace
+
+GravityHistory::GravityHistory(TimeTable table) : table_(std::move(table)) {
+    const auto largest = [&](std::size_t column) {
+        const auto [least, greatest] = table_.range(column);
+        return std::max(std::abs(least), std::abs(greatest));
+    };
+    strongest_ = std::hypot(largest(1), largest(2));
+}
+
+double GravityHistory::longest_step(const NearField& field) const {
+    return field.settings.time_step_factor * field.step_of_celerity(strongest_);
+}
 
 void GravityHistory::begin_step(NearField& field, double time, double step) {
     // means, so that a jerk within a step gives the water its whole impulse

@@ -11,10 +11,12 @@ namespace cmps {
 
 class GravityHistory final : public Effect {
  public:
-    explicit GravityHistory(TimeTable table) : table_(std::move(table)) {}
+    explicit GravityHistory(TimeTable table);
     std::string name() const override { return "gravity_history"; }
     void begin_step(NearField& field, double time, double step) override;
     void end_step(NearField& field, double time, double step) override;
+    /// That of the table's strongest gravity: while there is little, more may come within a step.
+    double longest_step(const NearField& field) const override;
     std::vector<double> state() const override { return {work_.net, work_.gross}; }
     void restore(const std::vector<double>& state) override { work_ = {state.at(0), state.at(1)}; }
 
@@ -23,6 +25,7 @@ class GravityHistory final : public Effect {
 
  private:
     TimeTable table_;
+    double strongest_ = 0;  // m/s2, at most
     Work work_;
     std::array<double, 2> before_ = {};  // sums of velocity over the fluid, m/s
 };

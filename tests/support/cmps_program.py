@@ -8,6 +8,8 @@ import tempfile
 import h5py
 import numpy as np
 
+from perturbations import members, perturbed  # noqa: F401  (members: for the tests)
+
 PROGRAM = os.path.join(os.environ.get("TSUNAGI_BIN", "build/release/bin"), "cmps")
 FOLDER = tempfile.mkdtemp(prefix="cmps_")
 
@@ -15,7 +17,7 @@ FOLDER = tempfile.mkdtemp(prefix="cmps_")
 class Run:
     """One finished run: exit status, messages, run.json and the windows' datasets joined over time."""
 
-    def __init__(self, name, scene, waves=None, sets=(), options=(), resume=False):
+    def __init__(self, name, scene, waves=None, sets=(), options=(), resume=False, perturbation=None):
         self.path = os.path.join(FOLDER, name + ".toml")
         self.out = os.path.join(FOLDER, name)
         with open(self.path, "w") as file:
@@ -25,6 +27,7 @@ class Run:
             command += ["--waves", waves]
         for word in sets:
             command += ["--set", word]
+        command += perturbed(perturbation)
         if resume:
             command.append("--resume")
         done = subprocess.run(command, capture_output=True, text=True)

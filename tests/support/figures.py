@@ -68,6 +68,15 @@ def ensemble_figure(stage, name, members, unit="", reference=0.0, why=""):
                    f"published {published:.4g} (n = {n}, spread {spread:.2g}; within {band:.3g} but for one in {1 / FALSE_ALARM:.0e})")
 
 
+def published_interval(stage, name):
+    """Where the true mean of an ensemble figure lies, but for a chance of a false alarm: what a claim about it has to hold for."""
+    row = _published(stage, name, "ensemble")
+    if row is None:
+        return -math.inf, math.inf
+    half = _band(int(row["n"]), float(row["standard_deviation"]), math.inf)
+    return float(row["value"]) - half, float(row["value"]) + half
+
+
 def limit_figure(stage, name, value, limit, unit="", why=""):
     if RECORDING:
         return _record(stage, name, "limit", limit, unit, 0.0, 1, 0.0, limit, why)

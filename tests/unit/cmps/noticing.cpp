@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <string>
 
+#include "cmps/effects/gravity_history.hpp"
 #include "cmps/effects/viscosity.hpp"
 #include "cmps/near_field.hpp"
 #include "common/errors.hpp"
@@ -48,6 +51,22 @@ TEST(Noticing, ViscosityLimitsTheStep) {
     const double kinematic = 0.25 * l0 * l0 / (0.5 * without);  // asks for half of it
     field.effects.push_back(std::make_unique<cmps::Viscosity>(kinematic));
     EXPECT_DOUBLE_EQ(field.largest_step(), 0.5 * without);
+}
+
+TEST(Noticing, WeightlessWaterThatAlmostRestsBearsTheGravityToCome) {
+    const auto path = std::filesystem::temp_directory_path() / "tsunagi_gravity_from_none.csv";
+    std::ofstream(path) << "t, gx, gz\n0, 0, 0\n1, 0, 0\n1.001, 0, -9.81\n10, 0, -9.81\n";
+    cmps::NearField field = tank();
+    const double weighing = field.largest_step();
+    field.effects.push_back(std::make_unique<cmps::GravityHistory>(cmps::TimeTable(path, 3)));
+    for (std::size_t i = field.particles.first_fluid(); i < field.particles.size(); ++i)
+        field.particles.x[i] += 1e-12 * l0 * std::sin(static_cast<double>(i));
+    field.settle(100, 0.2);
+    for (double time = 0; time < 0.1; time += field.last_step()) {
+        ASSERT_LE(field.largest_step(), weighing);
+        field.advance(time, field.largest_step());
+    }
+    std::filesystem::remove(path);
 }
 
 TEST(Noticing, WaterAtRestThatWeighsNothingHasAStepAndStays) {

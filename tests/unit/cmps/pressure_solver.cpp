@@ -97,6 +97,29 @@ TEST(PressureSolver, StopsAtOnceFromTheSolution) {
     EXPECT_EQ(solver.solve(equation.matrix, equation.right_hand_side, x).iterations, 0u);
 }
 
+TEST(PressureSolver, LittleToSolveForFromAGuessFarOffIsFound) {
+    System system(0.005);
+    const auto& equation = system.field.equation;
+    const auto& particles = system.field.particles;
+    std::vector<double> at_x, at_z;
+    for (const auto row : equation.row_of) {
+        at_x.push_back(particles.x[particles.first_wall() + static_cast<std::size_t>(row)]);
+        at_z.push_back(particles.z[particles.first_wall() + static_cast<std::size_t>(row)]);
+    }
+    std::vector<double> little(equation.matrix.rows());
+    for (std::size_t i = 0; i < little.size(); ++i)  // weightless water that was still under its weight
+        little[i] = 1e-60 * equation.right_hand_side[i];
+    for (const bool by_multigrid : {false, true}) {
+        std::vector<double> x(little.size(), 5000.0);
+        cmps::PressureSolver solver(1e-3, 1000);
+        const auto report = by_multigrid ? solver.solve(equation.matrix, little, x, at_x, at_z, 0.01)
+                                         : solver.solve(equation.matrix, little, x);
+        EXPECT_TRUE(report.is_converged);
+        for (const double pressure : x)
+            ASSERT_LT(std::abs(pressure), 5000.0 * 1e-6);  // 1e-12 times the condition
+    }
+}
+
 TEST(PressureSolver, SaysSoWhenItDoesNotConverge) {
     System system(0.02);
     const auto& equation = system.field.equation;
