@@ -98,8 +98,7 @@ SolveReport PressureSolver::iterate(const SparseMatrix& matrix, const std::vecto
     double* const p = direction_.data();
     double* const q = product_.data();
     double* const z = preconditioned_.data();
-    double target =
-        tolerance_ * std::sqrt(sum_over_rows(rows, [&](std::size_t i) { return b[i] * b[i]; }));
+    double target = tolerance_ * std::sqrt(sum_over_rows(rows, [&](std::size_t i) { return b[i] * b[i]; }));
     multiply(matrix, x, product_);
     double norm = std::sqrt(sum_over_rows(rows, [&](std::size_t i) {
         r[i] = b[i] - q[i];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 
 #include "cmps/initial_state.hpp"
@@ -24,6 +25,8 @@ inline cmps::Particles particles(double length, double spacing, const std::funct
     cmps::fill_water(
         solid, spacing, 0, length, [&](double x) { return solid.free_intervals(x, 0, surface(x)); },
         particles);
+    const char* const others = std::getenv("TSUNAGI_PERTURBATION");  // as tests/support/perturbations.py
+    cmps::perturb(particles, spacing, others != nullptr ? 1000 * std::atoll(others) : 0);
     return particles;
 }
 

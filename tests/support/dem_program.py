@@ -8,6 +8,8 @@ import tempfile
 import h5py
 import numpy as np
 
+from perturbations import members, perturbed  # noqa: F401  (members: for the tests)
+
 DEM = os.path.join(os.environ.get("TSUNAGI_BIN", "build/release/bin"), "dem")
 
 
@@ -54,6 +56,8 @@ def run(scene, *arguments, verb="run", folder=None, name="scene.toml", quiet=Tru
         f.write(scene)
     out = os.path.join(base, "out")
     command = [DEM, verb, path] + ([] if verb == "check" else ["--out", out] + (["--quiet"] if quiet else [])) + list(arguments)
+    if verb == "run" and not any(str(word).startswith("perturbation=") for word in arguments):
+        command += perturbed()
     done = subprocess.run(command, capture_output=True, text=True, timeout=timeout)
     return Run(out, done.returncode, done.stdout + done.stderr)
 

@@ -35,6 +35,7 @@ sys.path.insert(0, str(SOURCE / "workflows"))
 sys.dont_write_bytecode = True
 
 import run_folder  # noqa: E402  (needs the path above)
+from perturbations import perturbed  # noqa: E402
 
 
 class Failure(Exception):
@@ -73,15 +74,22 @@ def environment(**changes):
     return {**os.environ, "OMP_WAIT_POLICY": "passive", **changes}
 
 
+def command_of(program, arguments):
+    """The command line; runs that choose no perturbation have that of the first member (perturbations.py)."""
+    words = [str(word) for word in arguments]
+    chooses = words[:1] != ["run"] or any(word.startswith("perturbation=") for word in words)
+    return [str(BIN / program), *words, *([] if chooses else perturbed())]
+
+
 def start(program, *arguments, **options):
     """Starts a program in a process group of its own and returns the Popen object; stderr and stdout are pipes."""
-    return subprocess.Popen([str(BIN / program), *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+    return subprocess.Popen(command_of(program, arguments), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                             text=True, env=environment(), start_new_session=True, **options)
 
 
 def run(program, *arguments, timeout=600, **options):
     """Runs a program to its end and returns its Result. `options` go to subprocess.run (preexec_fn, cwd, ...)."""
-    command = [str(BIN / program), *map(str, arguments)]
+    command = command_of(program, arguments)
     begun = time.monotonic()
     try:
         ended = subprocess.run(command, capture_output=True, text=True, timeout=timeout, env=environment(), **options)

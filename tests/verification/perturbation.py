@@ -2,7 +2,10 @@
 import h5py
 import numpy as np
 
+import perturbations
 from harness import *
+
+perturbations.FIRST = 0  # every seed here is chosen
 
 COLUMN = """
 [time]
