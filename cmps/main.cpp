@@ -15,6 +15,7 @@
 #include "cmps/simulation.hpp"
 #include "common/check_report.hpp"
 #include "common/errors.hpp"
+#include "common/input_scene.hpp"
 #include "common/output_folder.hpp"
 #include "common/parallel.hpp"
 #include "common/progress.hpp"
@@ -49,6 +50,7 @@ double start_time(const cmps::Scene& scene, cmps::WaveField* waves) {
 /// The waves that drive a run, opened and judged.
 struct Upstream {
     common::WindowReader reader;
+    std::string without_record;  // what to tell of windows made by hand
     cmps::WaveField waves;
 
     /// How far the wall may come off its place with the waves still known there, m: a breaking wave moves
@@ -62,8 +64,9 @@ struct Upstream {
         if (scene.has_effect("wall_overflow")) ahead = std::max(ahead, scene.overflow_zone());
         return play(scene) + ahead;
     }
-    Upstream(const common::StageCommand& command, const cmps::Scene& scene)
+    Upstream(const common::StageCommand& command, const common::SceneFile& file, const cmps::Scene& scene)
         : reader(command.upstream, "boussinesq", wave_datasets, command.follow),
+          without_record(common::require_same_scene(file, command.upstream, reader.first().scene_digest)),
           waves(reader, scene.offshore - play(scene), scene.offshore + reach(scene), scene.time.end) {
         waves.check_depth([&](double x) { return -cmps::bottom_level(scene, x); });
         if (!command.follow && reader.available_until() < scene.time.end - 1e-9)
@@ -96,7 +99,7 @@ int check(const common::StageCommand& command, const common::SceneFile& file, co
     check_water(scene);
     double start = -1;
     if (!command.upstream.empty() && scene.drive == cmps::Drive::waves) {
-        Upstream upstream(command, scene);
+        Upstream upstream(command, file, scene);
         start = start_time(scene, &upstream.waves);
         check_start(start, scene);
     }
@@ -147,7 +150,7 @@ int run(const common::StageCommand& command, const common::SceneFile& file, cons
     if (scene.drive == cmps::Drive::waves) {
         if (command.upstream.empty())
             throw common::InputError("cmps run: --waves DIR is needed, for cmps.drive = \"waves\"");
-        upstream.emplace(command, scene);
+        upstream.emplace(command, file, scene);
         upstream_digest = upstream->reader.first().scene_digest;
     }
     cmps::WaveField* const waves = upstream ? &upstream->waves : nullptr;
@@ -167,6 +170,7 @@ int run(const common::StageCommand& command, const common::SceneFile& file, cons
     record.describe_scene(file);
     record.set_digests(file.digest(upstream_digest), upstream_digest);
     record.set_effects(scene.effects);
+    if (upstream) record.describe_input(command.upstream);
     cmps::Simulation simulation(scene, waves, start);
     if (goes_on)
         restore(simulation, folder);
@@ -175,6 +179,10 @@ int run(const common::StageCommand& command, const common::SceneFile& file, cons
 
     const common::WindowClock clock(start, scene.time.end, scene.time.window);
     common::Progress progress("cmps", start, scene.time.end, command.quiet);
+    if (upstream && !upstream->without_record.empty()) {
+        record.set_note("input", upstream->without_record);
+        if (!goes_on) progress.say(upstream->without_record);
+    }
     for (const cmps::Remark& remark : scene.remarks) {
         record.set_note(remark.name, remark.text);
         if (!goes_on) progress.say(remark.text);

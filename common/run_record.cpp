@@ -20,7 +20,7 @@ namespace common {
 using Json = nlohmann::ordered_json;
 
 struct RunRecord::Content {
-    Json scene = Json::object(), effects = Json::object(), invariants = Json::object(),
+    Json scene = Json::object(), input, effects = Json::object(), invariants = Json::object(),
          figures = Json::object(), notes = Json::object();
     std::string scene_digest, input_digest, begun;
     std::map<std::string, double> phases;
@@ -63,10 +63,20 @@ RunRecord::RunRecord(std::filesystem::path folder, std::string stage)
 void RunRecord::describe_scene(const SceneFile& scene) {
     content_->scene["file"] = scene.path().string();
     Json values = Json::object();
-    for (const auto& value : scene.values())
-        values[value.section][value.key] = {
-            {"value", scene_value(value.value)}, {"unit", value.unit}, {"default", value.is_default}};
+    for (const auto& value : scene.values()) {
+        Json& entry = values[value.section][value.key];
+        entry = {{"value", scene_value(value.value)}, {"unit", value.unit}, {"default", value.is_default}};
+        if (!value.file_digest.empty()) entry["digest"] = value.file_digest;
+    }
     content_->scene["values"] = std::move(values);
+}
+
+void RunRecord::describe_input(const std::filesystem::path& folder) {
+    std::ifstream stream(folder / "run.json");
+    const Json record = stream ? Json::parse(stream, nullptr, false) : Json();
+    if (!record.is_object()) return;
+    for (const char* name : {"stage", "scene", "input"})
+        if (record.contains(name)) content_->input[name] = record[name];
 }
 
 void RunRecord::set_digests(const std::string& scene_digest, const std::string& input_digest) {
@@ -151,6 +161,7 @@ void RunRecord::write(const std::string& status, const std::string& message) {
                    {"notes", content_->notes},
                    {"phases", phases},
                    {"scene", content_->scene}};
+    if (!content_->input.is_null()) record["input"] = content_->input;
     write_text_file(folder_ / "run.json", record.dump(1) + "\n");
 }
 

@@ -33,6 +33,8 @@ class RunRecord {
     RunRecord(std::filesystem::path folder, std::string stage);
 
     void describe_scene(const SceneFile& scene);
+    /// Keeps the stage and scene that DIR/run.json of the windows read says, and those before it.
+    void describe_input(const std::filesystem::path& folder);
     void set_digests(const std::string& scene_digest, const std::string& input_digest);
     void set_effects(std::vector<EffectRecord> effects);
     /// Sets (or replaces) an invariant by name.

@@ -170,8 +170,11 @@ void SceneFile::finish() const {
 
 std::vector<SceneValue> SceneFile::values() const {
     std::vector<SceneValue> values;
-    for (const auto& d : data_->declarations)
-        values.push_back({d.section, d.key, d.value, d.unit, d.about, d.is_default});
+    for (const auto& d : data_->declarations) {
+        const auto file = data_->file_digests.find(dotted_name(d.section, d.key));
+        values.push_back({d.section, d.key, d.value, d.unit, d.about, d.is_default,
+                          file != data_->file_digests.end() ? file->second : std::string()});
+    }
     return values;
 }
 

@@ -112,6 +112,7 @@ class Section {
 struct SceneValue {
     std::string section, key, value, unit, about;
     bool is_default;
+    std::string file_digest;  ///< of the file it names, empty for all other values
 };
 
 /// One scene (or layout) file with its overrides.
@@ -159,6 +160,7 @@ class SceneFile {
     const std::filesystem::path& path() const;
 
  private:
+    friend std::string require_same_scene(const SceneFile&, const std::filesystem::path&, const std::string&);
     explicit SceneFile(std::unique_ptr<SceneData> data);
     std::unique_ptr<SceneData> data_;
 };

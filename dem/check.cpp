@@ -106,7 +106,7 @@ void check(const common::StageCommand& command, const common::SceneFile& file, c
         fmt::print("{}", file.reference());
         return;
     }
-    const double begin = require_input(command, scene);
+    const double begin = require_input(command, file, scene);
     std::size_t spheres = 0, moving = 0;
     for (std::size_t i = 0; i < scene.placed.size(); ++i) {
         spheres += scene.placed.shape_of(i).spheres.size();

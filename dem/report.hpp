@@ -15,6 +15,8 @@ class Report {
  public:
     Report(const std::filesystem::path& folder, const common::SceneFile& file, const Scene& scene,
            const std::string& scene_digest, const std::string& input_digest);
+    /// Keeps the scene that the flow was computed from.
+    void describe_input(const std::filesystem::path& flow) { record_.describe_input(flow); }
     /// Later balances are held against the energies of now.
     void begin_books(const Simulation& simulation);
     /// Looks at the stability limit of the present contacts and at the energy budget (at every sample).

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "common/errors.hpp"
+#include "common/input_scene.hpp"
 #include "common/output_folder.hpp"
 #include "common/progress.hpp"
 #include "common/window_channel.hpp"
@@ -24,10 +25,14 @@ namespace {
 /// The windows this run is to compute, and the water in each of them.
 class FlowSource {
  public:
-    FlowSource(const common::StageCommand& command, const Scene& scene)
+    FlowSource(const common::StageCommand& command, const common::SceneFile& file, const Scene& scene)
         : scene_(scene), folder_(command.upstream), follow_(command.follow) {
-        if (!folder_.empty()) reader_.emplace(folder_, "cmps", expected_flow(), follow_);
+        if (folder_.empty()) return;
+        reader_.emplace(folder_, "cmps", expected_flow(), follow_);
+        without_record_ = common::require_same_scene(file, folder_, digest());
     }
+    /// What to tell of windows made by hand, empty for those of a run.
+    const std::string& without_record() const { return without_record_; }
     bool has_flow() const { return reader_.has_value(); }
     std::string digest() { return has_flow() ? reader_->first().scene_digest : std::string(); }
     double begin() { return has_flow() ? reader_->first().t_begin : 0.0; }
@@ -106,6 +111,7 @@ class FlowSource {
     std::filesystem::path folder_;
     bool follow_;
     std::optional<common::WindowReader> reader_;
+    std::string without_record_;
     std::optional<common::WindowClock> clock_;
     double start_ = 0;
     std::int64_t first_ = 0;
@@ -204,9 +210,9 @@ void report_breaks(const Wires& mounted, const Wires& now, Report& report) {
 
 }  // namespace
 
-double require_input(const common::StageCommand& command, const Scene& scene) {
+double require_input(const common::StageCommand& command, const common::SceneFile& file, const Scene& scene) {
     if (command.from.empty() && command.upstream.empty()) return 0;
-    FlowSource flow(command, scene);
+    FlowSource flow(command, file, scene);
     return enter(command, scene, flow).begin;
 }
 
@@ -251,7 +257,7 @@ void pack(const common::StageCommand& command, const common::SceneFile& file, co
 
 void run(const common::StageCommand& command, const common::SceneFile& file, const common::SceneFile* layout,
          const Scene& scene) {
-    FlowSource flow(command, scene);
+    FlowSource flow(command, file, scene);
     const std::string input = input_digest_of(command, flow);
     const std::string digest = scene_digest_of(file, layout, scene, input);
     // Whatever is wrong with the input shows before anything in the folder is touched.
@@ -262,6 +268,8 @@ void run(const common::StageCommand& command, const common::SceneFile& file, con
     if (folder.start() == common::OutputFolder::Start::nothing_to_do) return;
     common::Progress progress("dem", begin, scene.time.end, command.quiet);
     Report report(command.out, file, scene, digest, input);
+    if (flow.has_flow()) report.describe_input(command.upstream);
+    if (!flow.without_record().empty()) report.say("input", flow.without_record());
     if (const std::string other = other_flow_of(command, flow); !other.empty())
         report.say("restart.flow", other);
     try {

@@ -12,7 +12,7 @@ void check(const common::StageCommand& command, const common::SceneFile& file, c
 
 /// Time at which a run would start, s: that of the flow or of the earlier state, 0 without either. Throws
 /// common::InputError where they do not fit the scene.
-double require_input(const common::StageCommand& command, const Scene& scene);
+double require_input(const common::StageCommand& command, const common::SceneFile& file, const Scene& scene);
 
 /// `dem pack`: settles the blocks and stores the state.
 void pack(const common::StageCommand& command, const common::SceneFile& file, const Scene& scene);

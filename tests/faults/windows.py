@@ -1,4 +1,5 @@
 """Damaged, missing and foreign windows: the stage that reads them names file and fault, and nothing published is lost."""
+import json
 import shutil
 
 import h5py
@@ -164,6 +165,41 @@ def windows_of_the_wrong_stage(folder):
     chain = whole_chain(folder)
     run("cmps", "run", SCENE, *SHORT, "--waves", chain / "flow", "--out", chain / "again").expect_error(2, "schema")
     run("dem", "run", SCENE, *SHORT, "--flow", chain / "waves", "--out", chain / "again").expect_error(2, "schema")
+
+
+@test
+def input_of_another_scene(folder):
+    """Keys that the windows were computed with differ from those given: refused, each named with both values."""
+    chain = whole_chain(folder)
+    (_, *waves), (_, *flow) = (command for command, *_ in readers(chain))
+    for program, words in (("cmps", waves), ("dem", flow)):
+        for setting, *parts in (("waves.height=0.08", "waves.height (0.06 there, 0.08 here)"),
+                                ("boussinesq.cells=700", "boussinesq.cells", "here"),
+                                ("accuracy=fine", 'accuracy ("draft" there, "fine" here)')):
+            run(program, *words, "--set", setting).expect_error(2, "another scene", *parts)
+    run("dem", *flow, "--set", "cmps.crest_lowering=0.03").expect_error(2, "cmps.crest_lowering (0.04 there, 0.03 here)")
+    check(not (chain / "again_blocks").exists(), "a refused run has written")
+    # What belongs to the blocks alone may change on a stored flow, and so may titles and gauges.
+    run("dem", *flow, "--set", "dem.friction=0.5", "--set", "title=again", "--set", "gauges.more=5.7").expect_done()
+    record = json.loads((chain / "again_blocks/run.json").read_text())
+    check(record["input"]["scene"]["values"]["cmps"]["crest_lowering"]["value"] == 0.04, record["input"])
+    check(record["input"]["input"]["scene"]["values"]["waves"]["height"]["value"] == 0.06, record["input"])
+
+
+@test
+def input_without_a_scene_record(folder):
+    """Windows made by hand say nothing of a scene: told once, and kept in run.json."""
+    chain = whole_chain(folder)
+    command, *_ = list(readers(chain))[1]
+    record = json.loads((chain / "flow/run.json").read_text())
+    (chain / "flow/run.json").write_text(json.dumps({key: record[key] for key in ("stage", "status", "windows")}))
+    ended = run(*command).expect_done()
+    check(ended.stderr.count("windows without a scene record") == 1, ended.stderr)
+    notes = json.loads((chain / "again_blocks/run.json").read_text())["notes"]
+    check("without a scene record" in notes["input"], notes)
+    record["scene_digest"] = "0" * 32
+    (chain / "flow/run.json").write_text(json.dumps(record))
+    run(*command).expect_error(2, "run.json", "another run", "digests differ")
 
 
 @test
