@@ -130,7 +130,8 @@ void print_check(const common::SceneFile& file, const Scene& scene, bool all) {
                                               expected.relative_error, expected.error_from)});
     if (!expected.warning.empty()) lines.push_back({"warning", "the run will stop: " + expected.warning});
     if (!scene.waves.record_note.empty()) lines.push_back({"record", scene.waves.record_note});
-    if (!scene.sponge_note.empty()) lines.push_back({"note", scene.sponge_note});
+    for (const std::string* note : {&scene.sponge_note, &scene.sampling_note})
+        if (!note->empty()) lines.push_back({"note", *note});
     common::print_check_report(scene.effects, lines);
 }
 

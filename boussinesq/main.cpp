@@ -32,7 +32,8 @@ int run(const common::StageCommand& command, const common::SceneFile& file, cons
     EffectWatch watch(scene);
     common::Progress progress("boussinesq", 0.0, scene.time.end, command.quiet);
     if (scene.waves.share_left_out > 0.01) progress.say(scene.waves.record_note);
-    if (!scene.sponge_note.empty()) progress.say(scene.sponge_note);
+    for (const std::string* note : {&scene.sponge_note, &scene.sampling_note})
+        if (!note->empty()) progress.say(*note);
     const auto save = [&] {
         common::DataFile state = simulation.save();
         report.save(state);

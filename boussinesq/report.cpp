@@ -127,6 +127,7 @@ Report::Report(const std::filesystem::path& folder, const common::SceneFile& fil
     }
     if (!scene.waves.record_note.empty()) record_.set_note("waves.record", scene.waves.record_note);
     if (!scene.sponge_note.empty()) record_.set_note("shoreward_sponge", scene.sponge_note);
+    if (!scene.sampling_note.empty()) record_.set_note("output_interval", scene.sampling_note);
     record_.write_running();
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "boussinesq/output_sampling.hpp"
 #include "boussinesq/wave_section.hpp"
 #include "boussinesq/waves/bound_waves.hpp"
 #include "boussinesq/waves/wave_theory.hpp"
@@ -49,9 +50,15 @@ void read_grid_and_ends(const common::SceneFile& file, common::Accuracy accuracy
     scene.grid = {.offshore_end = begin,
                   .spacing = length / std::clamp(cells, 8.0, 5e7),
                   .cells = static_cast<std::size_t>(std::clamp(cells, 8.0, 5e7))};
-    scene.output_interval =
-        section.number("output_interval", "s", "between samples in a window", Range::positive(),
-                       waves.period > 0 ? waves.period / 60.0 : std::min(0.05, scene.time.window));
+    // Sixty samples a (peak) wave are thirty at twice its frequency; a crest counts as a wave.
+    constexpr double samples_a_wave = 60.0;
+    const double shortest_known = waves.period > 0       ? waves.period
+                                  : waves.crest_rate > 0 ? two_pi / waves.crest_rate
+                                                         : 0.0;
+    scene.output_interval = section.number(
+        "output_interval", "s", "between samples in a window; default: 60 a wave", Range::positive(),
+        shortest_known > 0 ? std::min(shortest_known / samples_a_wave, scene.time.window)
+                           : std::min(0.05, scene.time.window));
     // A window is built in memory: 16 bytes a value.
     const double samples = std::min(scene.time.window, scene.time.end) / scene.output_interval;
     constexpr double largest_window = 4e9;
@@ -280,6 +287,7 @@ Scene read_scene(const common::SceneFile& file) {
                             gauge.interval, scene.time.end / gauge.interval, scene.time.end, most_samples));
     }
     decide_effects(file, wishes, accuracy, scene);
+    if (!file.has_problems()) check_output_sampling(file, accuracy, scene);
     scene.flow.spacing = scene.grid.spacing;
     // The cost study finds no more error at 0.8 than at 0.5; beside dry cells half a cell a step keeps depths
     // positive.

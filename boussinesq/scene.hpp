@@ -28,6 +28,7 @@ struct WaveSection {
     double ramp = 0;                ///< s
     double depth = 0;               ///< still water where the wave is made, m
     double length = 0;              ///< of the (peak) wave there, m
+    double crest_rate = 0;          ///< solitary: the elevation passes as sech^2(rate t), 1/s
     SeaState sea;
     bool has_bound_waves = false;  ///< irregular waves to second order
     std::string bound_waves_reason;
@@ -57,7 +58,8 @@ struct Scene {
     bool breaks_as_bores = false;  ///< hydrostatic bores from the beginning, without eddy viscosity
     EddyViscosityConstants breaking;
     std::vector<common::EffectRecord> effects;
-    std::string sponge_note;  ///< the flume leaves the shoreward sponge less length than it should have
+    std::string sponge_note;    ///< the flume leaves the shoreward sponge less length than it should have
+    std::string sampling_note;  ///< what reads the windows sees less of the waves than it should
     Expectation expectation;
 
     double still_depth(double x) const { return -common::bed_level(bed, x); }

@@ -398,6 +398,7 @@ void read_waves(const common::SceneFile& file, Scene& scene, const LinearDispers
         const SolitaryWave wave(dispersion.is_dispersive ? dispersion.alpha : 1.0, waves.height, waves.depth,
                                 0.0);
         waves.length = 2.0 * wave.reach(1e-3);
+        waves.crest_rate = std::acosh(std::sqrt(2.0)) / wave.reach(0.5) * wave.speed();
         waves.position = section.number("position", "m", "of the crest at t = 0", Range::any(),
                                         scene.bed.front()[0] + wave.reach(1e-3));
         check_place(section, scene, wave);

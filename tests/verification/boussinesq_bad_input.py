@@ -1,4 +1,5 @@
 """Every mistake in a scene gets its one clear line, with file, line and key, exit 2, before anything runs."""
+import json
 import math
 
 from harness import *
@@ -159,6 +160,24 @@ def more_than_a_machine_holds(folder):
     refuse(folder, 'shoreward = "absorbing"', "output_interval = 1e-9", "boussinesq.output_interval", "GB")
     refuse(folder, 'shoreward = "absorbing"', "spacing = 1e-9", "boussinesq.spacing", "cells")
     refuse(folder, '"H5-1" = 30.0', '"H5-1" = {x = 30.0, interval = 1e-9}', "gauges.H5-1", "samples", "1e+07")
+
+
+@test
+def samples_that_miss_the_waves(folder):
+    key, near_field = 'shoreward = "absorbing"', "\n[cmps]\noffshore = 25.0"
+    refuse(folder, key, "output_interval = 0.6875" + near_field, "boussinesq.output_interval", "2.4 samples a wave", "2 % of this accuracy", "at most")
+    scene = write_scene(folder, GOOD.replace(key, key + "\noutput_interval = 0.2" + near_field))
+    note = next(line for line in run("boussinesq", "check", scene).expect_status(0).stdout.splitlines() if "output_interval" in line)
+    check("8.2 samples a wave" in note, note)
+    result = run("boussinesq", "run", scene, "--out", folder / "told").expect_status(0)
+    check(result.stderr.count("output_interval of 0.2 s") == 1, result.stderr)
+    check("8.2 samples a wave" in json.loads((folder / "told" / "run.json").read_text())["notes"]["output_interval"], "run.json does not keep it")
+    # what is offered is taken without a word; and so are coarse windows, with one, where nothing follows them
+    offered = note.split("at most ")[1].split(" s")[0]
+    result = run("boussinesq", "check", scene, "--set", f"boussinesq.output_interval={offered}").expect_status(0)
+    check("output_interval" not in result.stdout, result.stdout)
+    scene = write_scene(folder, GOOD.replace(key, "output_interval = 0.6875"))
+    check("2.4 samples a wave" in run("boussinesq", "check", scene).expect_status(0).stdout, "not told")
 
 
 @test
