@@ -17,17 +17,19 @@ struct Hit {
 };
 Hit first_hit(const Solid& solid, const Point& at, const Point& direction, double nearest, double farthest) {
     Hit hit{farthest, nullptr};
-    for (const SurfaceSegment& other : solid.surface()) {
+    const auto [left, right] = std::minmax(at[0], at[0] + farthest * direction[0]);
+    solid.for_surface(left, right, [&](std::size_t index) {
+        const SurfaceSegment& other = solid.surface()[index];
         const double across = direction[0] * other.normal[0] + direction[1] * other.normal[1];
-        if (std::abs(across) < 1e-12) continue;
+        if (std::abs(across) < 1e-12) return;
         const double ex = other.from[0] - at[0], ez = other.from[1] - at[1];
         const double t = (ex * other.normal[0] + ez * other.normal[1]) / across;
-        if (t < nearest || t >= hit.distance) continue;
+        if (t < nearest || t >= hit.distance) return;
         const double x = at[0] + t * direction[0], z = at[1] + t * direction[1];
         const double dx = other.to[0] - other.from[0], dz = other.to[1] - other.from[1];
         const double s = ((x - other.from[0]) * dx + (z - other.from[1]) * dz) / (dx * dx + dz * dz);
         if (s > -1e-9 && s < 1 + 1e-9) hit = {t, &other};
-    }
+    });
     return hit;
 }
 

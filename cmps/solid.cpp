@@ -18,14 +18,23 @@ Point along(const Point& a, const Point& b, double s) {
     return {a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])};
 }
 
-bool inside(const Polygon& polygon, double x, double z) {
-    bool is_inside = false;
-    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-        const Point &a = polygon[i], &b = polygon[j];
-        if ((a[1] > z) != (b[1] > z) && x < (b[0] - a[0]) * (z - a[1]) / (b[1] - a[1]) + a[0])
-            is_inside = !is_inside;
+/// Extents of a polygon's edges in x (0) or z (1).
+std::vector<std::array<double, 2>> extents(const Polygon& polygon, std::size_t axis) {
+    std::vector<std::array<double, 2>> extents;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const auto [low, high] = std::minmax(polygon[i][axis], polygon[(i + 1) % polygon.size()][axis]);
+        extents.push_back({low, high});
     }
-    return is_inside;
+    return extents;
+}
+
+/// Numbers of edges that may meet [low, high], each once, in order.
+std::vector<std::size_t> edges_near(const Strips& strips, double low, double high) {
+    std::vector<std::size_t> edges;
+    strips.for_near(low, high, [&](std::size_t i) { edges.push_back(i); });
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
 }
 
 double distance_to_segment(const SurfaceSegment& segment, double x, double z) {
@@ -69,20 +78,29 @@ void Solid::add(Polygon polygon, std::int32_t body) {
         part.x0 = std::min(part.x0, p[0]), part.x1 = std::max(part.x1, p[0]);
         part.z0 = std::min(part.z0, p[1]), part.z1 = std::max(part.z1, p[1]);
     }
+    part.by_x = Strips(extents(part.points, 0)), part.by_z = Strips(extents(part.points, 1));
     parts_.push_back(std::move(part));
 }
 
+bool Solid::Part::holds(double x, double z) const {
+    if (!(x >= x0 && x <= x1 && z >= z0 && z <= z1)) return false;
+    bool is_inside = false;
+    by_z.for_strip(by_z.strip(z), [&](std::size_t j) {  // one strip: no edge comes twice
+        const Point &a = points[(j + 1) % points.size()], &b = points[j];
+        if ((a[1] > z) != (b[1] > z) && x < (b[0] - a[0]) * (z - a[1]) / (b[1] - a[1]) + a[0])
+            is_inside = !is_inside;
+    });
+    return is_inside;
+}
+
 bool Solid::contains(double x, double z) const {
-    for (const Part& part : parts_)
-        if (x >= part.x0 && x <= part.x1 && z >= part.z0 && z <= part.z1 && inside(part.points, x, z))
-            return true;
-    return false;
+    return std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) { return part.holds(x, z); });
 }
 
 /// A face that two polygons share, both on the same side of it, is that of the first.
 bool Solid::is_face_of_earlier(const Part& part, const Point& behind) const {
     for (const Part* other = parts_.data(); other != &part; ++other)
-        if (inside(other->points, behind[0], behind[1])) return true;
+        if (other->holds(behind[0], behind[1])) return true;
     return false;
 }
 
@@ -96,8 +114,10 @@ void Solid::find_surface(const Point& low, const Point& high) {
             if (length == 0) continue;
             const Point normal = {d[1] / length, -d[0] / length};  // polygons run anticlockwise
             std::vector<double> cuts = {0, 1};
+            const double aside = 1e-6 * length;  // what add_cuts() takes for meeting is less
+            const auto [left, right] = std::minmax(a[0], b[0]);
             for (const Part& other : parts_)
-                for (std::size_t k = 0; k < other.points.size(); ++k)
+                for (const std::size_t k : edges_near(other.by_x, left - aside, right + aside))
                     add_cuts(a, b, other.points[k], other.points[(k + 1) % other.points.size()], cuts);
             const Polygon box = {low, {high[0], low[1]}, high, {low[0], high[1]}};
             for (std::size_t k = 0; k < 4; ++k) add_cuts(a, b, box[k], box[(k + 1) % 4], cuts);
@@ -119,26 +139,40 @@ void Solid::find_surface(const Point& low, const Point& high) {
                     surface_.push_back({.from = from, .to = to, .normal = normal, .body = part.body});
             }
         }
+    std::vector<std::array<double, 2>> extents;
+    for (const SurfaceSegment& segment : surface_) {
+        const auto [left, right] = std::minmax(segment.from[0], segment.to[0]);
+        extents.push_back({left, right});
+    }
+    surface_by_x_ = Strips(extents);
 }
 
 double Solid::distance(double x, double z, std::size_t& nearest) const {
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < surface_.size(); ++i) {
-        const double d = distance_to_segment(surface_[i], x, z);
-        if (d < least) least = d, nearest = i;
-    }
+    const auto look_at = [&](std::size_t strip) {
+        surface_by_x_.for_strip(strip, [&](std::size_t i) {
+            const double d = distance_to_segment(surface_[i], x, z);
+            if (d < least || (d == least && i < nearest)) least = d, nearest = i;
+        });
+    };
+    if (surface_.empty()) return least;
+    const std::size_t here = surface_by_x_.strip(x);
+    look_at(here);
+    for (std::size_t s = here; s > 0 && !(x - surface_by_x_.low_end(s) > least); --s) look_at(s - 1);
+    for (std::size_t s = here + 1; s < surface_by_x_.count() && !(surface_by_x_.low_end(s) - x > least); ++s)
+        look_at(s);
     return least;
 }
 
 std::vector<std::array<double, 2>> Solid::free_intervals(double x, double bottom, double top) const {
     std::vector<double> cuts = {bottom, top};
     for (const Part& part : parts_)
-        for (std::size_t i = 0; i < part.points.size(); ++i) {
+        part.by_x.for_strip(part.by_x.strip(x), [&](std::size_t i) {
             const Point &a = part.points[i], &b = part.points[(i + 1) % part.points.size()];
-            if ((a[0] > x) == (b[0] > x)) continue;
+            if ((a[0] > x) == (b[0] > x)) return;
             const double z = a[1] + (b[1] - a[1]) * (x - a[0]) / (b[0] - a[0]);
             if (z > bottom && z < top) cuts.push_back(z);
-        }
+        });
     std::sort(cuts.begin(), cuts.end());
     std::vector<std::array<double, 2>> free;
     for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
@@ -173,27 +207,47 @@ double signed_area(const Polygon& polygon) {
     return 0.5 * twice;
 }
 
+namespace {
+
+/// intervals_within() of a polygon whose edges are sorted by x.
+std::vector<std::array<double, 2>> intervals_at(const Polygon& polygon, const Strips& edges, double x) {
+    std::vector<double> cuts;
+    edges.for_strip(edges.strip(x), [&](std::size_t i) {
+        const Point &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+        if ((a[0] > x) != (b[0] > x)) cuts.push_back(a[1] + (b[1] - a[1]) * (x - a[0]) / (b[0] - a[0]));
+    });
+    std::sort(cuts.begin(), cuts.end());
+    std::vector<std::array<double, 2>> intervals;
+    for (std::size_t k = 0; k + 1 < cuts.size(); k += 2) intervals.push_back({cuts[k], cuts[k + 1]});
+    return intervals;
+}
+
+}  // namespace
+
 /// Between two ends of edges or crossings, side by side in x, no edges of a and b cross: a line at the middle
 /// shows whether anything lies in both.
 bool overlap(const Polygon& a, const Polygon& b) {
     std::vector<double> x;
     for (const Polygon* polygon : {&a, &b})
         for (const Point& p : *polygon) x.push_back(p[0]);
-    for (std::size_t i = 0; i < a.size(); ++i)
-        for (std::size_t k = 0; k < b.size(); ++k) {
-            const Point &from = a[i], &to = a[(i + 1) % a.size()];
+    const Strips edges_of_a(extents(a, 0)), edges_of_b(extents(b, 0));
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const Point &from = a[i], &to = a[(i + 1) % a.size()];
+        const auto [left, right] = std::minmax(from[0], to[0]);
+        for (const std::size_t k : edges_near(edges_of_b, left, right)) {
             std::vector<double> cuts;
             add_cuts(from, to, b[k], b[(k + 1) % b.size()], cuts);
             for (const double s : cuts)
                 if (s > 0 && s < 1) x.push_back(along(from, to, s)[0]);
         }
+    }
     std::sort(x.begin(), x.end());
     constexpr double sliver = 1e-9;  // m: rounding of borders that are the same
     for (std::size_t m = 0; m + 1 < x.size(); ++m) {
         if (x[m + 1] - x[m] < sliver) continue;
         const double middle = 0.5 * (x[m] + x[m + 1]);
-        for (const auto& [low, high] : intervals_within(a, middle))
-            for (const auto& [bottom, top] : intervals_within(b, middle))
+        for (const auto& [low, high] : intervals_at(a, edges_of_a, middle))
+            for (const auto& [bottom, top] : intervals_at(b, edges_of_b, middle))
                 if (std::min(high, top) - std::max(low, bottom) > sliver) return true;
     }
     return false;
@@ -226,9 +280,11 @@ bool folds_back(const Polygon& polygon, std::size_t& where) {
 
 bool crosses_itself(const Polygon& polygon, std::array<std::size_t, 2>& where) {
     const std::size_t n = polygon.size();
+    const std::vector<std::array<double, 2>> reach = extents(polygon, 0);
+    const Strips edges(reach);
     for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t k = i + 2; k < n; ++k) {
-            if (i == 0 && k == n - 1) continue;  // neighbours through the closing edge
+        for (const std::size_t k : edges_near(edges, reach[i][0], reach[i][1])) {
+            if (k < i + 2 || (i == 0 && k == n - 1)) continue;  // neighbours, through the closing edge too
             const Point &a = polygon[i], &b = polygon[i + 1], &c = polygon[k], &d = polygon[(k + 1) % n];
             if (edges_cross(a, b, c, d)) {
                 where = {i + 1, k + 1};
@@ -277,15 +333,18 @@ double shared_depth(double depth, double ball, double spacing) {
 Point normal_between(const Solid& solid, double x, double z, double distance, std::size_t nearest) {
     const Point& own = solid.surface()[nearest].normal;
     constexpr double sharp = -0.3;  // n.n' of faces at less than 73 degrees
-    for (const SurfaceSegment& other : solid.surface()) {
-        if (own[0] * other.normal[0] + own[1] * other.normal[1] > sharp ||
+    const SurfaceSegment* first = nullptr;
+    solid.for_surface(x - 1.02 * distance, x + 1.02 * distance, [&](std::size_t i) {
+        const SurfaceSegment& other = solid.surface()[i];
+        if ((first && &other > first) || own[0] * other.normal[0] + own[1] * other.normal[1] > sharp ||
             distance_to_segment(other, x, z) > 1.02 * distance)
-            continue;
-        const Point across = minus(own, other.normal);
-        const double length = std::hypot(across[0], across[1]);
-        return {across[0] / length, across[1] / length};
-    }
-    return own;
+            return;
+        first = &other;
+    });
+    if (!first) return own;
+    const Point across = minus(own, first->normal);
+    const double length = std::hypot(across[0], across[1]);
+    return {across[0] / length, across[1] / length};
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cmps/particles.hpp"
+#include "cmps/strips.hpp"
 
 namespace cmps {
 
@@ -32,6 +33,12 @@ class Solid {
     const std::vector<SurfaceSegment>& surface() const { return surface_; }
     /// Distance to the nearest exposed segment (m) and its index.
     double distance(double x, double z, std::size_t& nearest) const;
+    /// Calls visit(segment's index) for all exposed segments that meet x = [low, high], and for some beside;
+    /// for some more than once.
+    template <class Visit>
+    void for_surface(double low, double high, const Visit& visit) const {
+        surface_by_x_.for_near(low, high, visit);
+    }
     /// Free intervals [z0, z1] of the vertical line at x between `bottom` and `top`.
     std::vector<std::array<double, 2>> free_intervals(double x, double bottom, double top) const;
 
@@ -40,10 +47,14 @@ class Solid {
         Polygon points;
         std::int32_t body;
         double x0, x1, z0, z1;
+        Strips by_x = {}, by_z = {};  ///< edges, the i-th from point i to the next
+
+        bool holds(double x, double z) const;
     };
     bool is_face_of_earlier(const Part& part, const Point& behind) const;
     std::vector<Part> parts_;
     std::vector<SurfaceSegment> surface_;
+    Strips surface_by_x_;
 };
 
 /// Radius of the largest ball within the solid that touches the face at `at` from behind, up to `most`, m.
