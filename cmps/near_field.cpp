@@ -42,7 +42,9 @@ NearField::NearField(const Settings& chosen, Particles initial)
 }
 
 double NearField::step_of_celerity(double gravity) const {
-    const double g = gravity > 0 ? gravity : 9.81, l0 = settings.spacing;
+    const double l0 = settings.spacing;
+    if (gravity == 0 && first_speed_ > 0) return 0.4 * l0 / first_speed_;
+    const double g = gravity > 0 ? gravity : 9.81;
     return 0.4 * l0 / std::sqrt(g * std::max(settings.depth, l0));
 }
 

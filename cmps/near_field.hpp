@@ -64,7 +64,8 @@ class NearField {
     void settle(int sweeps, double surface_level);
     /// Largest step now, s: courant l0/u, 0.4 l0/sqrt(g h), 0.25 sqrt(l0/a), what effects bear.
     double largest_step() const;
-    /// 0.4 l0/sqrt(g h), s; water that weighs nothing has the step of water on Earth, for a wall may come.
+    /// 0.4 l0/sqrt(g h), s; of water that weighs nothing 0.4 l0 over its first speed, and where it rested
+    /// that of water on Earth, for a wall may come.
     double step_of_celerity(double gravity) const;
     /// One step from `time` to `time + step`. Throws RunError when it goes wrong.
     void advance(double time, double step);

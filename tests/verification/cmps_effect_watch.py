@@ -13,7 +13,7 @@ import time
 import h5py
 import numpy as np
 
-from cmps_program import FOLDER, PROGRAM, Run, expect, finish
+from cmps_program import FOLDER, PROGRAM, Run, expect, finish, perturbed
 from cmps_waves import write_waves, write_window
 
 PERIOD, DEPTH = 1.65, 0.4
@@ -52,7 +52,7 @@ def loud(name, scene, waves):
     path = os.path.join(FOLDER, name + ".toml")
     with open(path, "w") as file:
         file.write(scene)
-    return subprocess.run([PROGRAM, "run", path, "--waves", waves, "--out", os.path.join(FOLDER, name)], capture_output=True, text=True).stderr
+    return subprocess.run([PROGRAM, "run", path, "--waves", waves, "--out", os.path.join(FOLDER, name), *perturbed()], capture_output=True, text=True).stderr
 
 
 def same_windows(a, b):
@@ -66,7 +66,7 @@ def interrupted(whole, scene, waves, kills):
     path = out + ".toml"
     with open(path, "w") as file:
         file.write(scene)
-    command = [PROGRAM, "run", path, "--waves", waves, "--out", out, "--quiet", "--resume"]
+    command = [PROGRAM, "run", path, "--waves", waves, "--out", out, "--quiet", "--resume", *perturbed()]
     for count in kills:
         process = subprocess.Popen(command)
         while process.poll() is None and not os.path.exists(os.path.join(out, f"window_{count - 1:06d}.h5")):

@@ -11,7 +11,7 @@ import numpy as np
 
 from dem_armour import small_armour
 from dem_flow import standing_wave, write_flow
-from dem_program import DEM, Checks, run
+from dem_program import DEM, Checks, perturbed, run
 
 check = Checks()
 SCENE = small_armour(2.0, linked_row=3)
@@ -32,7 +32,7 @@ base = tempfile.mkdtemp(prefix="tsunagi_dem_")
 with open(os.path.join(base, "scene.toml"), "w") as f:
     f.write(SCENE)
 out = os.path.join(base, "out")
-process = subprocess.Popen([DEM, "run", os.path.join(base, "scene.toml"), "--out", out, "--flow", flow, "--quiet"])
+process = subprocess.Popen([DEM, "run", os.path.join(base, "scene.toml"), "--out", out, "--flow", flow, "--quiet", *perturbed()])
 while not os.path.exists(os.path.join(out, "window_000002.h5")) and process.poll() is None:
     time.sleep(0.002)
 process.send_signal(signal.SIGKILL)
@@ -150,7 +150,7 @@ check.true("slack wires never pull here", slack.status == 0 and slack.figure("wi
 
 # A run must not replace the one it starts from.
 before = whole.windows()
-own = subprocess.run([DEM, "run", os.path.join(os.path.dirname(whole.folder), "scene.toml"), "--from", os.path.join(whole.folder, "window_000003.h5"), "--flow", flow, "--out", whole.folder],
+own = subprocess.run([DEM, "run", os.path.join(os.path.dirname(whole.folder), "scene.toml"), "--from", os.path.join(whole.folder, "window_000003.h5"), "--flow", flow, "--out", whole.folder, *perturbed()],
                      capture_output=True, text=True)
 check.true("--from inside --out is refused", own.returncode == 2 and "would be replaced" in own.stderr, own.stderr)
 check.true("and nothing is lost", whole.windows() == before)

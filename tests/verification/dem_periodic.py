@@ -7,7 +7,7 @@ import time
 
 import numpy as np
 
-from dem_program import DEM, Checks, run
+from dem_program import DEM, Checks, perturbed, run
 
 check = Checks()
 WIDTH = 0.2
@@ -69,7 +69,7 @@ with open(path, "w") as f:
     f.write(scene())
 kills = 0
 for last in (2, 6, 10):
-    process = subprocess.Popen([DEM, "run", path, "--out", out, "--quiet", "--resume"])
+    process = subprocess.Popen([DEM, "run", path, "--out", out, "--quiet", "--resume", *perturbed()])
     while not os.path.exists(os.path.join(out, f"window_{last:06d}.h5")) and process.poll() is None:
         time.sleep(0.002)
     kills += process.poll() is None

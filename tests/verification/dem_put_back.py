@@ -11,7 +11,7 @@ import numpy as np
 
 from dem_armour import COLUMNS, ROWS, small_armour
 from dem_flow import standing_wave, write_flow
-from dem_program import DEM, Checks, run
+from dem_program import DEM, Checks, perturbed, run
 
 check = Checks()
 D = 0.008
@@ -143,7 +143,7 @@ def killed_when(ready):
     with open(os.path.join(folder, "scene.toml"), "w") as f:
         f.write(LATER)
     out = os.path.join(folder, "out")
-    process = subprocess.Popen([DEM, "run", os.path.join(folder, "scene.toml"), "--out", out, "--from", state, "--wires", layout, "--quiet"])
+    process = subprocess.Popen([DEM, "run", os.path.join(folder, "scene.toml"), "--out", out, "--from", state, "--wires", layout, "--quiet", *perturbed()])
     while not ready(out) and process.poll() is None:
         time.sleep(0.001)
     process.send_signal(signal.SIGKILL)
