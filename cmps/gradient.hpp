@@ -9,7 +9,7 @@
 ///     antisymmetric corrected    D/n0 sum (p_i C_i + p_j C_j) r_ij w / r^2         conserves momentum
 ///
 /// C_i = (D/n0 sum r_ij r_ij^T w / r^2)^-1, the identity at walls in the last one (the form of Vila 1999). It
-/// keeps (5)'s pairs and carries waves: see the table in cmps/README.md.
+/// keeps (5)'s pairs and carries waves: workflows/studies/cost_cmps.py compares them.
 ///
 /// (5) with local minima gives zero for a linear pressure on a regular lattice; with the lowest pressure of
 /// the connected water (zero at a free surface) it is p_i + p_j: it conserves momentum and is consistent on a

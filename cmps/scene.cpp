@@ -59,10 +59,10 @@ bool check_polygons(const Section& section, const char* key, std::vector<Polygon
     return are_sound;
 }
 
-/// What an accuracy level stands for. Points of the measured front of error over time (cmps/README.md):
-/// standard is the cheapest that keeps 95 % of a wave over three lengths with a margin; a looser pressure
-/// solve saves a tenth and costs less than lattices differ, which suits a draft; a wider kernel gives what
-/// a third more particles over the depth give, at two thirds of their time.
+/// What an accuracy level stands for. Points of the front of error over time
+/// (workflows/studies/cost_cmps.py): standard is the cheapest that keeps 95 % of a wave over three lengths
+/// with a margin; a looser pressure solve saves a tenth and costs less than lattices differ, which suits a
+/// draft; a wider kernel gives what a third more particles over the depth give, at two thirds of their time.
 struct Level {
     int over_depth;  ///< particles over the depth of still water at the wall
     double tolerance, kernel_radius;

@@ -1,5 +1,5 @@
 """`check` says what a run will take: particles exactly, steps and work (particles times steps) closely. Wall time is not judged here: it
-is work times a cost that `check` measures on the machine; cmps/README.md compares it with real runs."""
+is work times a cost that `check` measures on the machine."""
 import os
 import re
 import subprocess
