@@ -103,11 +103,9 @@ Forecast forecast(const Scene& scene) {
     // measured with checksums and fsync.
     result.seconds =
         0.02 + 1e-9 * nanoseconds * result.steps * cells + samples * cells * 16e-9 + windows * 4e-3;
-    // Measured from 1e3 to 1e6 cells; windows, the state to go on from and their copies in the file included;
-    // and the index of all samples for ParaView.
+    // Measured from 1e3 to 1e6 cells; windows, the state to go on from and their copies in the file included.
     result.memory =
-        22e6 + cells * (276.0 + (scene.has_breaking ? 43.0 : 0.0) + 27.0 * std::ceil(samples / windows)) +
-        2.3e3 * samples;
+        22e6 + cells * (276.0 + (scene.has_breaking ? 43.0 : 0.0) + 27.0 * std::ceil(samples / windows));
     forecast_error(scene, result);
     return result;
 }
@@ -118,13 +116,28 @@ void print_check(const common::SceneFile& file, const Scene& scene, bool all) {
         return;
     }
     const Forecast expected = forecast(scene);
-    std::vector<common::ForecastLine> lines{
+    std::vector<common::ForecastLine> lines;
+    if (scene.waves.kind == WaveKind::regular || scene.waves.kind == WaveKind::irregular)
+        lines.push_back(
+            {"waves",
+             scene.waves.kind == WaveKind::regular
+                 ? fmt::format("H = {:.4g} m, T = {:.4g} s in {:.4g} m of water, {:.4g} m long",
+                               scene.waves.height, scene.waves.period, scene.waves.depth, scene.waves.length)
+                 : fmt::format("H_s = H_m0 = {:.4g} m, T_p = {:.4g} s in {:.4g} m of water, "
+                               "{:.4g} m long",
+                               scene.waves.height, scene.waves.period, scene.waves.depth,
+                               scene.waves.length)});
+    if (scene.waves.kind == WaveKind::solitary)
+        lines.push_back({"waves", fmt::format("solitary, H = {:.4g} m in {:.4g} m of water",
+                                              scene.waves.height, scene.waves.depth)});
+    const std::vector<common::ForecastLine> costs{
         {"cells", fmt::format("{} of {:.4g} m", scene.grid.cells, scene.grid.spacing)},
         {"steps", fmt::format("about {:.0f}", expected.steps)},
         {"run time",
          fmt::format("about {} on this machine ({:.0f} ns per cell and step)",
                      common::run_time_text(expected.seconds), expected.nanoseconds_per_cell_step)},
         {"memory", fmt::format("about {:.0f} MB", 1e-6 * expected.memory)}};
+    lines.insert(lines.end(), costs.begin(), costs.end());
     if (expected.relative_error > 0)
         lines.push_back({"error", fmt::format("about {:.1g} of the wave height, of the cells ({})",
                                               expected.relative_error, expected.error_from)});

@@ -57,8 +57,7 @@ void read_grid_and_ends(const common::SceneFile& file, common::Accuracy accuracy
                                                          : 0.0;
     scene.output_interval = section.number(
         "output_interval", "s", "between samples in a window; default: 60 a wave", Range::positive(),
-        shortest_known > 0 ? std::min(shortest_known / samples_a_wave, scene.time.window)
-                           : std::min(0.05, scene.time.window));
+        shortest_known > 0 ? shortest_known / samples_a_wave : std::min(0.05, scene.time.window));
     // A window is built in memory: 16 bytes a value.
     const double samples = std::min(scene.time.window, scene.time.end) / scene.output_interval;
     constexpr double largest_window = 4e9;
@@ -69,6 +68,15 @@ void read_grid_and_ends(const common::SceneFile& file, common::Accuracy accuracy
                         "expected at most {:.3g} GB a window",
                         scene.output_interval, samples, cells, scene.time.window, 16e-9 * samples * cells,
                         1e-9 * largest_window));
+    constexpr double largest_run = 1e12;  // bytes on disk, 8 a value pair before compression
+    const double all_samples = scene.time.end / scene.output_interval;
+    if (cells <= 5e7 && 8.0 * all_samples * cells > largest_run)
+        section.problem(
+            "output_interval",
+            fmt::format("of {} s gives {:.3g} samples of {:.3g} cells in a run of {} s, {:.3g} GB "
+                        "on disk; expected at most {:.3g} GB, an interval of {:.2g} s and more",
+                        scene.output_interval, all_samples, cells, scene.time.end, 8e-9 * all_samples * cells,
+                        1e-9 * largest_run, 1.05 * 8.0 * scene.time.end * cells / largest_run));
     constexpr double most_windows = 1e6;
     if (scene.time.end / scene.time.window > most_windows)
         file.section("time").problem(
@@ -279,8 +287,8 @@ Scene read_scene(const common::SceneFile& file) {
                                            fmt::format("x = {} m is outside the flume, {} to {} m", gauge.x,
                                                        scene.bed.front()[0], scene.bed.back()[0]));
         constexpr double most_samples = 1e7;  // kept in memory: 40 bytes each
-        if (gauge.kind == common::Gauge::Kind::surface && gauge.interval != scene.output_interval &&
-            scene.time.end / gauge.interval > most_samples)
+        if (gauge.kind == common::Gauge::Kind::surface && scene.time.end / gauge.interval > most_samples &&
+            !(gauge.interval == scene.output_interval && file.has_problems()))
             file.section("gauges").problem(
                 gauge.name,
                 fmt::format("interval of {} s gives {:.3g} samples in {} s; expected at most {:.0e}",

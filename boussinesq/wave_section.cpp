@@ -328,7 +328,8 @@ void read_waves(const common::SceneFile& file, Scene& scene, const LinearDispers
         waves.kind = regular ? WaveKind::regular : WaveKind::irregular;
         waves.height = section.number(
             "height", "m",
-            regular ? "wave height in the depth of the offshore end" : "significant wave height there",
+            regular ? "wave height H in the depth of the offshore end"
+                    : "significant wave height H_s = H_m0 = 4 sqrt(m0) in the depth of the offshore end",
             heights);
         waves.period = section.number("period", "s",
                                       kind == "bretschneider" ? "significant wave period T_1/3"
@@ -387,7 +388,8 @@ void read_waves(const common::SceneFile& file, Scene& scene, const LinearDispers
             }
     } else if (kind == "solitary") {
         waves.kind = WaveKind::solitary;
-        waves.height = section.number("height", "m", "of the solitary wave", heights);
+        waves.height =
+            section.number("height", "m", "height H of the solitary wave over still water", heights);
         if (waves.height > highest_solitary * waves.depth) {
             section.problem(
                 "height",

@@ -158,6 +158,7 @@ def initial_states_that_cannot_be(folder):
 def more_than_a_machine_holds(folder):
     refuse(folder, "window = 1.0", "window = 1e-9", "time.window", "windows")
     refuse(folder, 'shoreward = "absorbing"', "output_interval = 1e-9", "boussinesq.output_interval", "GB")
+    refuse(folder, "window = 1.0", "window = 0.00001\n", "boussinesq.output_interval", "GB on disk", text=GOOD.replace('shoreward = "absorbing"', "output_interval = 1e-9"))
     refuse(folder, 'shoreward = "absorbing"', "spacing = 1e-9", "boussinesq.spacing", "cells")
     refuse(folder, '"H5-1" = 30.0', '"H5-1" = {x = 30.0, interval = 1e-9}', "gauges.H5-1", "samples", "1e+07")
 
@@ -178,6 +179,15 @@ def samples_that_miss_the_waves(folder):
     check("output_interval" not in result.stdout, result.stdout)
     scene = write_scene(folder, GOOD.replace(key, "output_interval = 0.6875"))
     check("2.4 samples a wave" in run("boussinesq", "check", scene).expect_status(0).stdout, "not told")
+
+
+@test
+def heights_are_told_for_what_they_are(folder):
+    sea = GOOD.replace('kind = "regular"', 'kind = "jonswap"')
+    for text, words in ((GOOD, "wave height H in"), (sea, "significant wave height H_s = H_m0")):
+        scene = write_scene(folder, text)
+        check(words in run("boussinesq", "check", scene, "--all").expect_status(0).stdout, f"check --all does not say '{words}'")
+    check("H_s = H_m0 = 0.1 m" in run("boussinesq", "check", scene).expect_status(0).stdout, "check does not say that the height is H_s")
 
 
 @test
