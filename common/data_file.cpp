@@ -5,6 +5,7 @@
 #include <hdf5.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -265,6 +266,10 @@ Attribute read_attribute(hid_t object, const std::string& name, const fs::path& 
     Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose);
     if (!attribute.is_valid()) refuse(path, "cannot read attribute " + name);
     Handle type(H5Aget_type(attribute), H5Tclose);
+    Handle space(H5Aget_space(attribute), H5Sclose);
+    constexpr std::size_t longest = 1 << 20;
+    if (H5Sget_simple_extent_npoints(space) != 1 || H5Tget_size(type) > longest)
+        refuse(path, "attribute " + name + " is not one text or number");
     switch (H5Tget_class(type)) {
         case H5T_STRING: {
             if (H5Tis_variable_str(type) > 0) {
@@ -305,7 +310,22 @@ std::vector<T> read_values(hid_t set, std::size_t count, const std::string& name
     return values;
 }
 
-Dataset read_dataset(hid_t file, const std::string& name, const fs::path& path) {
+/// True where values are stored smaller than they are.
+bool is_compressed(hid_t set) {
+    Handle creation(H5Dget_create_plist(set), H5Pclose);
+    const int filters = H5Pget_nfilters(creation);
+    for (int i = 0; i < filters; ++i) {
+        unsigned flags = 0, configuration = 0;
+        std::size_t words = 0;
+        const H5Z_filter_t filter = H5Pget_filter2(creation, static_cast<unsigned>(i), &flags, &words,
+                                                   nullptr, 0, nullptr, &configuration);
+        if (filter != H5Z_FILTER_FLETCHER32 && filter != H5Z_FILTER_SHUFFLE) return true;
+    }
+    return false;
+}
+
+/// Unit and shape, and with `has_values` the values.
+Dataset read_dataset(hid_t file, const std::string& name, const fs::path& path, bool has_values) {
     Handle set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
     if (!set.is_valid()) refuse(path, "dataset " + name + " cannot be opened (damaged?)");
     Handle space(H5Dget_space(set), H5Sclose);
@@ -313,14 +333,26 @@ Dataset read_dataset(hid_t file, const std::string& name, const fs::path& path) 
     std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space))));
     if (!extent.empty()) H5Sget_simple_extent_dims(space, extent.data(), nullptr);
     dataset.shape.assign(extent.begin(), extent.end());
-    const auto stored_bytes = H5Dget_storage_size(set);
-    const std::size_t count =
-        std::accumulate(dataset.shape.begin(), dataset.shape.end(), std::size_t{1}, std::multiplies<>());
     Handle type(H5Dget_type(set), H5Tclose);
     const std::size_t width = H5Tget_size(type);
-    // A damaged header may claim any size: nothing is allocated for data that cannot be in the file.
-    if (width == 0 || (stored_bytes > 0 && count / 2048 > stored_bytes / width + 1))
+    std::size_t count = 1, bytes = 0;
+    bool overflows = false;
+    for (const std::size_t length : dataset.shape)
+        overflows = __builtin_mul_overflow(count, length, &count) || overflows;
+    overflows = __builtin_mul_overflow(count, width, &bytes) || overflows;
+    if (std::find(dataset.shape.begin(), dataset.shape.end(), 0) != dataset.shape.end())
+        count = 0, bytes = 0, overflows = false;
+    // A damaged header may claim any size: nothing is allocated for data that cannot be in the file. No
+    // compression that HDF5 knows makes more than 1032 bytes out of one, but for repeated passes.
+    constexpr std::size_t most_out_of_one = 2048;
+    const std::size_t stored = std::min<std::size_t>(H5Dget_storage_size(set), fs::file_size(path));
+    if (width == 0 || overflows || (is_compressed(set) ? bytes / most_out_of_one > stored : bytes > stored))
         refuse(path, "dataset " + name + " claims more values than the file holds");
+    if (H5Aexists(set, "units") > 0) {
+        const Attribute unit = read_attribute(set, "units", path);
+        if (const auto* text = std::get_if<std::string>(&unit)) dataset.unit = *text;
+    }
+    if (!has_values) return dataset;
     if (H5Tget_class(type) == H5T_FLOAT && width <= 4)
         dataset.values = read_values<float>(set, count, name, path);
     else if (H5Tget_class(type) == H5T_FLOAT)
@@ -331,11 +363,18 @@ Dataset read_dataset(hid_t file, const std::string& name, const fs::path& path) 
         dataset.values = read_values<std::uint64_t>(set, count, name, path);
     else
         refuse(path, "dataset " + name + " is not numbers");
-    if (H5Aexists(set, "units") > 0) {
-        const Attribute unit = read_attribute(set, "units", path);
-        if (const auto* text = std::get_if<std::string>(&unit)) dataset.unit = *text;
-    }
     return dataset;
+}
+
+/// Tells what cannot be read (permission, a disk at fault) from what is damaged.
+void require_readable(const fs::path& path) {
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) refuse(path, fmt::format("cannot be read: {}", std::strerror(errno)));
+    char byte = 0;
+    const bool is_read = ::read(descriptor, &byte, 1) >= 0;
+    const int reason = errno;
+    ::close(descriptor);
+    if (!is_read) refuse(path, fmt::format("cannot be read: {}", std::strerror(reason)));
 }
 
 struct Listing {
@@ -438,12 +477,21 @@ void write_data_file(const fs::path& path, const DataFile& content) {
     write_file(path, image.bytes(), true);
 }
 
-DataFile read_data_file(const fs::path& path) {
+DataFile read_data_file(const fs::path& path, const std::function<void(const DataFile&)>& accept) {
     silence_library_messages();
     std::error_code error;
-    if (!fs::is_regular_file(path, error)) refuse(path, "no such file");
+    const bool is_there = fs::is_regular_file(path, error);
+    if (error && error != std::errc::no_such_file_or_directory && error != std::errc::not_a_directory)
+        refuse(path, "cannot be read: " + error.message());
+    if (!is_there) refuse(path, "no such file");
+    require_readable(path);
     Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+#if H5_VERSION_GE(1, 10, 7)
+    // Files are replaced by renaming, never changed where they are: locks guard nothing, and some file
+    // systems have none.
+    H5Pset_file_locking(access, false, true);
+#endif
     Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
     if (!file.is_valid()) refuse(path, "not a whole HDF5 file (truncated or damaged)");
     DataFile content;
@@ -454,7 +502,15 @@ DataFile read_data_file(const fs::path& path) {
     Listing listing;
     if (H5Ovisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, list_dataset, &listing) < 0)
         refuse(path, "cannot list its datasets (damaged?)");
-    for (const auto& name : listing.datasets) content.datasets.emplace(name, read_dataset(file, name, path));
+    const auto read_datasets = [&](bool has_values) {
+        for (const auto& name : listing.datasets)
+            content.datasets.insert_or_assign(name, read_dataset(file, name, path, has_values));
+    };
+    if (accept) {
+        read_datasets(false);
+        accept(content);
+    }
+    read_datasets(true);
     return content;
 }
 

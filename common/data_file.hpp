@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -64,8 +65,10 @@ struct DataFile {
 void write_data_file(const std::filesystem::path& path, const DataFile& file);
 
 /// Reads all of it. Throws InputError that names the file and the dataset at fault (truncated, checksum,
-/// type).
-DataFile read_data_file(const std::filesystem::path& path);
+/// type). `accept` sees attributes, units and shapes, without values, before any values are read, and throws
+/// when they are not those wanted.
+DataFile read_data_file(const std::filesystem::path& path,
+                        const std::function<void(const DataFile&)>& accept = {});
 
 /// Atomic replacement of a small text file (run.json) that can be made anew: renamed into place, not
 /// synced. Throws RunError.

@@ -56,6 +56,10 @@ void watch_for_interrupts() {
     action.sa_handler = raise_interrupt;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    // A terminal that was closed ends a run like Ctrl-C; under nohup it goes on.
+    struct sigaction hangup {};
+    sigaction(SIGHUP, nullptr, &hangup);
+    if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
     // A write past a file-size limit must fail with EFBIG, not kill the program.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);

@@ -10,7 +10,8 @@ namespace common {
 class FolderLock {
  public:
     /// Creates the folder when needed. Throws InputError when it cannot be written, or when another process
-    /// holds it: the message then says that another `holder` is running ("run", "chain").
+    /// holds it: the message then says that another `holder` is running ("run", "chain"). A file system
+    /// without locks is told, and the run goes on.
     FolderLock(const std::filesystem::path& folder, const std::string& holder);
     ~FolderLock();
     FolderLock(const FolderLock&) = delete;
@@ -20,7 +21,7 @@ class FolderLock {
     int descriptor_;
 };
 
-/// True while a living process holds the lock of the folder.
+/// True while a living process holds the lock of the folder; false where the file system has no locks.
 bool is_locked(const std::filesystem::path& folder);
 
 }  // namespace common

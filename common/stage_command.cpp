@@ -14,7 +14,9 @@ StageCommand read_stage_command(int argc, char** argv, const StageGrammar& gramm
     CLI::App app{grammar.description, grammar.program};
     app.set_version_flag("--version", version_text(grammar.program));
     app.require_subcommand(1);
-    app.footer("Exit status: 0 done, 1 failed while running, 2 bad input or usage, 130 after Ctrl-C.");
+    app.footer(
+        "Exit status: 0 done, 1 failed while running, 2 bad input or usage, 130 after Ctrl-C, SIGTERM or "
+        "SIGHUP.");
 
     const auto add_common = [&](CLI::App* verb) {
         verb->add_option("SCENE", command.scene, "scene file (TOML)")->required();

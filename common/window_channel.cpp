@@ -61,12 +61,12 @@ std::string fault_of_values(const Window& window) {
 }
 
 /// Checks names, units and shapes; equal extent names must agree over all datasets.
-void check_expected(const Window& window, const std::vector<ExpectedDataset>& expected,
+void check_expected(const DataFile& file, const std::vector<ExpectedDataset>& expected,
                     const fs::path& path) {
     std::map<std::string, std::size_t> extents;
     for (const auto& wanted : expected) {
-        const auto found = window.datasets.find(wanted.name);
-        if (found == window.datasets.end())
+        const auto found = file.datasets.find(wanted.name);
+        if (found == file.datasets.end())
             throw InputError(fmt::format("{}: dataset {} is missing", path.string(), wanted.name));
         const Dataset& dataset = found->second;
         if (dataset.unit != wanted.unit)
@@ -128,12 +128,16 @@ void publish_window(const fs::path& folder, const Window& window) {
 
 Window read_window(const fs::path& path, const std::string& stage,
                    const std::vector<ExpectedDataset>& expected) {
-    DataFile file = read_data_file(path);
+    // The schema first: of a file of another kind the shapes say nothing.
+    DataFile file = read_data_file(path, [&](const DataFile& header) {
+        const std::string schema = header.text("schema");
+        if (schema != schema_of(stage))
+            throw InputError(
+                fmt::format("{}: schema is '{}', expected '{}'", path.string(), schema, schema_of(stage)));
+        check_expected(header, expected, path);
+    });
     Window window;
     try {
-        if (file.text("schema") != schema_of(stage))
-            throw InputError(
-                fmt::format("schema is '{}', expected '{}'", file.text("schema"), schema_of(stage)));
         window.stage = file.text("stage");
         window.index = file.integer("index");
         window.t_begin = file.number("t_begin");
@@ -149,7 +153,6 @@ Window read_window(const fs::path& path, const std::string& stage,
         throw InputError(fmt::format("{}: ends ({} s) before it begins ({} s)", path.string(), window.t_end,
                                      window.t_begin));
     window.datasets = std::move(file.datasets);
-    check_expected(window, expected, path);
     if (const std::string fault = fault_of_values(window); !fault.empty())
         throw InputError(fmt::format("{}: {}", path.string(), fault));
     return window;
@@ -186,6 +189,15 @@ bool WindowReader::wait_for(const fs::path& path) {
                 break;
             case UpstreamStatus::State::running:
                 break;
+        }
+        // The first wait only: later on an upstream stage may be slow without being at fault.
+        const bool is_absent = status.state == UpstreamStatus::State::absent;
+        if (!first_ && !has_told_ && std::chrono::steady_clock::now() - begun > (is_absent ? 2s : 30s)) {
+            has_told_ = true;
+            fmt::print(
+                stderr, "{}: waits for {} of the {} stage{}\n", folder_.string(), path.filename().string(),
+                stage_,
+                is_absent ? ", which has not started there (gives up after 60 s)" : ", which is running");
         }
         std::this_thread::sleep_for(patience);
     }

@@ -52,7 +52,7 @@ class WindowReader {
     std::filesystem::path folder_;
     std::string stage_;
     std::vector<ExpectedDataset> expected_;
-    bool follow_;
+    bool follow_, has_told_ = false;
     std::optional<Window> first_;
 };
 

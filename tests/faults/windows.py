@@ -1,5 +1,7 @@
 """Damaged, missing and foreign windows: the stage that reads them names file and fault, and nothing published is lost."""
 import json
+import random
+import resource
 import shutil
 
 import h5py
@@ -165,6 +167,61 @@ def windows_of_the_wrong_stage(folder):
     chain = whole_chain(folder)
     run("cmps", "run", SCENE, *SHORT, "--waves", chain / "flow", "--out", chain / "again").expect_error(2, "schema")
     run("dem", "run", SCENE, *SHORT, "--flow", chain / "waves", "--out", chain / "again").expect_error(2, "schema")
+
+
+def replaced_by_claim(dataset, shape):
+    """The dataset declares `shape`, but only a first chunk of it is in the file."""
+    def edit(file):
+        unit = file[dataset].attrs["units"]
+        del file[dataset]
+        claim = file.create_dataset(dataset, shape=shape, dtype="f4", chunks=(1000,) + (1,) * (len(shape) - 1))
+        claim[(0,) * len(shape)] = 1.0
+        claim.attrs["units"] = unit
+    return change(edit)
+
+
+@test
+def a_dataset_that_claims_gigabytes(folder):
+    """Refused before memory is asked for: by its shape where that is not the one expected, else by what the file holds."""
+    def with_little_memory():
+        resource.setrlimit(resource.RLIMIT_AS, (2_000_000_000, 2_000_000_000))
+    for which, shapes in ((0, ((400_000_000, 3),)), (1, ((400_000_000, 3, 3, 2),))):
+        for dataset, shape, message in ([(list(readers(folder))[which][3], shapes[0], "has shape"),
+                                         ("/gauges/far/velocity", (400_000_000,), "claims more values"),
+                                         ("/gauges/far/velocity", (2**40, 2**40), "claims more values")]):
+            chain = whole_chain(folder)
+            command, source, *_ = list(readers(chain))[which]
+            path = run_folder.window_paths(source)[0]
+            with h5py.File(path, "r+") as file:
+                if dataset not in file:
+                    file.create_dataset(dataset, data=[0.0]).attrs["units"] = "m/s"
+            replaced_by_claim(dataset, shape)(path)
+            run(*command, preexec_fn=with_little_memory).expect_error(2, path.name, dataset, message)
+            shutil.rmtree(chain)
+
+
+@test
+def bytes_changed_at_random(folder):
+    """Sixty seeded mutations of a window, most in its headers: no signal and no gigabytes, whatever HDF5 makes of them."""
+    def with_little_memory():
+        resource.setrlimit(resource.RLIMIT_AS, (2_000_000_000, 2_000_000_000))
+    run("boussinesq", "run", SCENE, "--set", "time.end=0.2", "--set", "time.window=0.1", "--out", folder / "waves",
+        "--quiet").expect_done()
+    path = folder / "waves/window_000001.h5"
+    whole = path.read_bytes()
+    refused = 0
+    for seed in range(60):
+        chance = random.Random(seed)
+        content = bytearray(whole)
+        for _ in range(chance.choice((1, 1, 2, 4))):
+            place = chance.choice((chance.randrange(len(content)), chance.randrange(min(4000, len(content)))))
+            content[place] = chance.choice((0, 255, chance.randrange(256), content[place] ^ 1 << chance.randrange(8)))
+        path.write_bytes(content)
+        ended = run("coupler", "verify", folder, preexec_fn=with_little_memory)
+        check(ended.status in (0, 1), f"seed {seed}: status {ended.status}: {ended.stderr}")
+        check(ended.status == 0 or path.name in ended.stderr, f"seed {seed}: the file is not named: {ended.stderr}")
+        refused += ended.status == 1
+    check(refused > 30, f"only {refused} of 60 mutations were noticed")
 
 
 @test
