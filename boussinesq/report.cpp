@@ -222,7 +222,7 @@ void Report::fill_statistics(const std::vector<GaugeRecord>& gauges) {
     const double period = scene_.waves.period;
     for (const GaugeRecord& gauge : gauges) {
         if (gauge.time.size() < 8) continue;
-        const std::string key = fmt::format("gauges.{}.", gauge.name);
+        const std::string key = fmt::format("gauges.\"{}\".", gauge.name);
         constexpr double least_samples = 10.0;  // a wave; fewer miss its crest by more than 5 % of its height
         if (period > 0 && period < least_samples * gauge.interval) {
             record_.set_note(key + "statistics",

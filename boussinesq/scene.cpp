@@ -56,7 +56,7 @@ void read_grid_and_ends(const common::SceneFile& file, common::Accuracy accuracy
                                   : waves.crest_rate > 0 ? two_pi / waves.crest_rate
                                                          : 0.0;
     scene.output_interval = section.number(
-        "output_interval", "s", "between samples in a window; default: 60 a wave", Range::positive(),
+        "output_interval", "s", "between samples in a window; default: 60 a wave", Range::at_least(1e-6),
         shortest_known > 0 ? shortest_known / samples_a_wave : std::min(0.05, scene.time.window));
     // A window is built in memory: 16 bytes a value.
     const double samples = std::min(scene.time.window, scene.time.end) / scene.output_interval;

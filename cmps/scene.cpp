@@ -385,8 +385,8 @@ void read_drive(const Section& section, Scene& scene, double depth) {
 }
 
 void read_output(const common::SceneFile& file, const Section& section, Scene& scene) {
-    scene.particles_interval =
-        section.number("particles_interval", "s", "between stored particle pictures", Range::positive(), 0.1);
+    scene.particles_interval = section.number("particles_interval", "s", "between stored particle pictures",
+                                              common::Range::at_least(1e-6), 0.1);
     const double pictures = std::min(scene.time.window, scene.time.end) / scene.particles_interval + 1;
     const double particles = about_particles(scene);
     if (particles <= most_particles && 2 * particles * pictures > most_window_values)
@@ -409,7 +409,8 @@ void read_output(const common::SceneFile& file, const Section& section, Scene& s
     const auto z = flow.numbers("z", "m", "range of the grid", 2, Range::any());
     const double spacing =
         flow.number("spacing", "m", "of the grid", Range::positive(), scene.settings.spacing);
-    const double interval = flow.number("interval", "s", "between samples", Range::positive(), 0.02);
+    const double interval =
+        flow.number("interval", "s", "between samples", common::Range::at_least(1e-6), 0.02);
     if (x[1] <= x[0]) flow.problem("x", "expected [x0, x1] with x0 < x1");
     if (z[1] <= z[0]) flow.problem("z", "expected [z0, z1] with z0 < z1");
     if (scene.offshore < scene.onshore && (x[0] < scene.offshore || x[1] > scene.onshore))

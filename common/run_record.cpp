@@ -45,12 +45,20 @@ Json number_or_null(double value) {
     return std::isfinite(value) ? Json(value) : Json();
 }
 
+/// A part in quotes is one name, whatever it holds; it ends with the last quote before a dot or the end.
 Json& nested(Json& root, const std::string& dotted) {
     Json* node = &root;
     std::size_t from = 0;
-    for (auto dot = dotted.find('.'); dot != std::string::npos; from = dot + 1, dot = dotted.find('.', from))
-        node = &(*node)[dotted.substr(from, dot - from)];
-    return (*node)[dotted.substr(from)];
+    while (true) {
+        const bool is_quoted = dotted.compare(from, 1, "\"") == 0;
+        const auto closing = is_quoted ? dotted.rfind('"') : from;
+        const auto dot = dotted.find('.', closing);
+        const std::string part =
+            is_quoted ? dotted.substr(from + 1, closing - from - 1) : dotted.substr(from, dot - from);
+        node = &(*node)[part];
+        if (dot == std::string::npos) return *node;
+        from = dot + 1;
+    }
 }
 
 }  // namespace

@@ -41,7 +41,8 @@ class RunRecord {
     void set_invariant(const InvariantRecord& invariant);
     /// Any further figure: "particles", "steps", "nanoseconds_per_cell_step", ...
     void set_figure(const std::string& name, double value);
-    /// Dotted names make nested objects ("damage.mean_offshore").
+    /// Dotted names make nested objects ("damage.mean_offshore"); one part may stand in quotes to be taken as
+    /// it is ("gauges.\"g10.5\".crest_mean").
     void set_note(const std::string& name, const std::string& text);
     void set_series(const std::string& name, const std::vector<double>& values);
     /// Adds seconds of wall time to a phase ("pressure solve").

@@ -9,8 +9,9 @@ namespace common {
 
 TimeSection read_time(const SceneFile& scene) {
     const Section time = scene.section("time");
-    return {.end = time.number("end", "s", "end of the simulation", Range::positive()),
-            .window = time.number("window", "s", "length of an exchange window", Range::positive(), 1.0)};
+    return {.end = time.number("end", "s", "end of the simulation",
+                               {.lowest = 0, .highest = 1e6, .lowest_is_open = true}),
+            .window = time.number("window", "s", "length of an exchange window", Range::at_least(1e-4), 1.0)};
 }
 
 double read_water_density(const SceneFile& scene, SharedKey own, SharedKey other) {
@@ -65,6 +66,9 @@ std::vector<Gauge> read_gauges(const SceneFile& scene, double default_interval) 
         gauge.name = name;
         gauge.interval = default_interval;
         if (name.find('/') != std::string::npos) section.problem(name, "a gauge's name must not contain '/'");
+        if (name.empty() || name == "." || name == "..")
+            section.problem(name,
+                            fmt::format("'{}' is no name for a gauge: windows hold /gauges/<name>", name));
         if (!section.is_table(name)) {
             gauge.x = section.number(name, "m", "gauge at x", Range::any());
         } else {
@@ -82,7 +86,7 @@ std::vector<Gauge> read_gauges(const SceneFile& scene, double default_interval) 
             if (gauge.kind == Gauge::Kind::pressure)
                 gauge.diameter = entry.number("diameter", "m", "sensing face", Range::not_negative(), 0.0);
             gauge.interval =
-                entry.number("interval", "s", "between records", Range::positive(), default_interval);
+                entry.number("interval", "s", "between records", Range::at_least(1e-6), default_interval);
         }
         gauges.push_back(gauge);
     }

@@ -21,8 +21,8 @@ Vector read_vector(const Section& section, const char* key, const char* unit, co
 }
 
 void read_material(const common::SceneFile& file, const Section& dem, Scene& scene) {
-    scene.element.diameter =
-        dem.number("element_diameter", "m", "diameter d of a sphere element", Range::positive(), 0.008);
+    scene.element.diameter = dem.number("element_diameter", "m", "diameter d of a sphere element",
+                                        common::Range::between(1e-6, 1e3), 0.008);
     scene.element.density_ratio = dem.number(
         "density_ratio", "-", "density s of an element over that of water", Range::positive(), 3.689);
     scene.water.density = common::read_water_density(file, {"dem", "water_density"}, {"cmps", "density"});
@@ -74,7 +74,7 @@ void read_stepping(const SceneFile& file, const Section& dem, Scene& scene) {
                                                                         : 1e-3;
     // Two digits are enough for a default, and read better in run.json.
     const auto step_of = [&](double part) {
-        return std::stod(fmt::format("{:.1e}", part * rayleigh_time(scene)));
+        return std::strtod(fmt::format("{:.1e}", part * rayleigh_time(scene)).c_str(), nullptr);
     };
     const double chosen = step_of(share);
     scene.usual_time_step = step_of(0.24);
@@ -88,8 +88,9 @@ void read_stepping(const SceneFile& file, const Section& dem, Scene& scene) {
                     fmt::format("{} s would take {:.1g} steps to time.end = {} s; at most {:.0g}",
                                 scene.step.time_step, scene.time.end / scene.step.time_step, scene.time.end,
                                 most_steps));
-    scene.step.flow_interval = dem.number(
-        "flow_interval", "s", "between samples of the water at every sphere", Range::positive(), flow);
+    scene.step.flow_interval =
+        dem.number("flow_interval", "s", "between samples of the water at every sphere",
+                   common::Range::at_least(1e-6), flow);
     const double d = scene.element.diameter;
     scene.step.skin = d * dem.number("skin", "d", "of neighbour lists; no effect on results",
                                      Range{.lowest = 0, .highest = 2, .lowest_is_open = true}, 0.15);
@@ -105,7 +106,7 @@ void read_stepping(const SceneFile& file, const Section& dem, Scene& scene) {
         dem.problem("overlap_noted",
                     fmt::format("expected at most dem.overlap_limit, {} d", scene.step.overlap_limit / d));
     scene.output_interval =
-        dem.number("output_interval", "s", "between recorded instants", Range::positive(), 0.05);
+        dem.number("output_interval", "s", "between recorded instants", common::Range::at_least(1e-6), 0.05);
 }
 
 /// What a single element would do under its own weight is the least that any contact has to bear.

@@ -462,7 +462,9 @@ void read_blocks(const SceneFile& file, Scene& scene) {
                                           {"settle", "none"}, armour ? "settle" : "none") == "settle";
     // What is enough for the paper's elements; others fall by the root of their size. In three digits, to
     // read well.
-    const auto rounded = [](double value) { return std::stod(fmt::format("{:.3g}", value)); };
+    const auto rounded = [](double value) {
+        return std::strtod(fmt::format("{:.3g}", value).c_str(), nullptr);
+    };
     const double slower = scene.time_scale, length = scene.element.diameter / 0.008;
     scene.packing.longest =
         packing.number("longest", "s", "packing gives up after", Range::positive(), rounded(5.0 * slower));

@@ -1,14 +1,15 @@
 """Mistakes in a scene: each gets one clear line with file, line and key, exit status 2, and nothing is run or written."""
-from harness import changed_scene, check, line_of, main, run, test
+from harness import changed_scene, check, line_of, main, run, run_folder, SCENES, test
 
 # (what is changed in the small scene, text that finds the line, the key, what the message must say)
 MISTAKES = [
-    (("end = 7.0", 'end = "7 s"'), 'end = "7 s"', "time.end", "expected a number above 0 in s, got text"),
-    (("window = 0.5", "window = -0.5"), "window = -0.5", "time.window", "expected a number above 0 in s, got -0.5"),
+    (("end = 7.0", 'end = "7 s"'), 'end = "7 s"', "time.end", "expected a number above 0 and at most 1000000 in s, got text"),
+    (("window = 0.5", "window = -0.5"), "window = -0.5", "time.window", "expected a number of at least 0.0001 in s, got -0.5"),
     (("height = 0.06", "height = 0.06\nheigth = 0.06"), "heigth", "waves.heigth", "did you mean 'height'"),
     (('kind = "regular"', 'kind = "regluar"'), "regluar", "waves.kind", "regular"),
     (("bed = [[0.0, -0.30], [15.0, -0.30]]", "bed = [[15.0, -0.30], [0.0, -0.30]]"), "bed =", "flume.bed", "increase"),
     (('"front" = 5.5', '"front" = true'), '"front"', "gauges.front", "got true"),
+    (('"link" = 4.8', '"link" = 4.8\n"." = 5.5'), '"." =', "gauges..", "no name for a gauge"),
     (("crest_lowering = 0.04", "crest_lowering = 0.04\nparticle_spacing = 0"), "particle_spacing",
      "cmps.particle_spacing", "got 0"),
     (("x = [5.20, 6.00]", "x = [5.20]"), "x = [5.20]", "cmps.flow.x", "2 numbers"),
@@ -86,6 +87,29 @@ def a_layout_that_is_wrong(folder):
                           ("[wires]\npsi = -1\n", "psi")]:
         layout.write_text(text)
         run_chain(scene, folder, "--wires", layout).expect_error(2, f"{layout}:", message)
+
+
+@test
+def numbers_that_no_run_could_take(folder):
+    """What `check` lets pass `run` can simulate: intervals below a microsecond and elements of 1e-308 m are refused by both."""
+    for setting, program in (("boussinesq.output_interval=1e-9", "boussinesq"), ("cmps.flow.interval=1e-9", "cmps"),
+                             ("cmps.particles_interval=1e-9", "cmps"), ("dem.output_interval=1e-9", "dem"),
+                             ("dem.element_diameter=1e-308", "dem"), ("time.window=1e-9", "boussinesq")):
+        key = setting.split("=")[0]
+        run(program, "check", SCENES / "small.toml", "--set", setting).expect_error(2, key, "expected a number", setting)
+    # No whole number of nanoseconds: the last samples of a run must not fall on one instant.
+    run("boussinesq", "run", SCENES / "small.toml", "--set", "time.end=0.0101", "--set", f"boussinesq.output_interval={1e-4 / 3}",
+        "--out", folder / "waves", "--quiet").expect_done()
+
+
+@test
+def names_of_gauges_are_kept_whole(folder):
+    scene = changed_scene(folder, "small", ('"front" = 5.5', '"g10" = 1.0\n"g10.5" = 1.5'))
+    run("boussinesq", "run", scene, "--set", "time.end=4.0", "--out", folder / "waves", "--quiet").expect_done()
+    record = run_folder.read_run(folder / "waves")
+    gauges = record["figures"]["gauges"]
+    check(set(gauges) == {"link", "g10", "g10.5"}, f"gauges in run.json: {list(gauges)}")
+    check(gauges["g10"].keys() == gauges["g10.5"].keys(), f"{gauges}")
 
 
 @test

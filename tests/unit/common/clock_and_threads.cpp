@@ -51,6 +51,20 @@ TEST(WindowClock, SamplesOfALongRunHaveNoSlivers) {
     }
 }
 
+TEST(WindowClock, IntervalsThatAreNoWholeNanosecondsGiveNoInstantTwice) {
+    for (const double interval : {1e-4 / 3, 1e-5 / 7, 3.3e-5 + 1e-13, 1e-6})
+        for (const double end : {0.01, 300 * interval, 0.01 + 4e-10}) {
+            const auto samples = WindowClock(0, end, 1).samples_in(0, interval);
+            for (std::size_t i = 1; i < samples.size(); ++i)
+                ASSERT_GT(samples[i], samples[i - 1]) << interval;
+        }
+    for (const double length : {1e-4, 1e-3 / 3, 1e-4 + 1e-13}) {
+        const WindowClock clock(0, 0.1, length);
+        const auto last = clock.window_count() - 1;
+        EXPECT_LT(clock.begin_of(last), clock.end_of(last)) << length;
+    }
+}
+
 TEST(OrderedSum, SameBitsForAnyNumberOfThreads) {
     const auto sum = [] {
         return ordered_sum(300000, [](std::size_t i) { return std::sin(static_cast<double>(i)) * 1e3; });
