@@ -182,11 +182,11 @@ def replaced_by_claim(dataset, shape):
 
 @test
 def a_dataset_that_claims_gigabytes(folder):
-    """Refused before memory is asked for: by its shape where that is not the one expected, else by what the file holds."""
+    """Refused before memory is asked for, by what the file holds."""
     def with_little_memory():
         resource.setrlimit(resource.RLIMIT_AS, (2_000_000_000, 2_000_000_000))
     for which, shapes in ((0, ((400_000_000, 3),)), (1, ((400_000_000, 3, 3, 2),))):
-        for dataset, shape, message in ([(list(readers(folder))[which][3], shapes[0], "has shape"),
+        for dataset, shape, message in ([(list(readers(folder))[which][3], shapes[0], "claims more values"),
                                          ("/gauges/far/velocity", (400_000_000,), "claims more values"),
                                          ("/gauges/far/velocity", (2**40, 2**40), "claims more values")]):
             chain = whole_chain(folder)
