@@ -273,7 +273,7 @@ void judge_waves(const common::SceneFile& file, const Section& section, Scene& s
                        "surface elevation at the wall that counts as arrival; default: 0.005 depths, at most "
                        "0.1 wave heights",
                        Range::positive(), height > 0 ? std::min(0.005 * depth, 0.1 * height) : 0.005 * depth);
-    if (height == 0) return;
+    if (height == 0 || file.has_problems()) return;  // stand-ins of other mistakes are not judged
     if (scene.arrival_threshold > height)
         section.problem("arrival_threshold",
                         fmt::format("{:g} m is more than waves.height = {:g} m: the waves would never arrive",
