@@ -89,6 +89,18 @@ PackingWork work_of_packing(const Scene& scene, const StepWork& step) {
             spent};
 }
 
+/// Mass and submerged weight of a block of each shape.
+std::string weights_of(const Scene& scene) {
+    std::string text;
+    for (const Shape& shape : scene.placed.shapes) {
+        const double lifted = scene.effects.fluid_force ? scene.water.density * shape.displaced_volume : 0;
+        text += fmt::format("{}{}: {:.4g} kg, {:.4g} N {}", text.empty() ? "" : "; ", shape.name, shape.mass,
+                            (shape.mass - lifted) * scene.gravity.norm(),
+                            scene.effects.fluid_force ? "under water" : "dry");
+    }
+    return text;
+}
+
 std::string run_time_line(const StepWork& work, double seconds) {
     const std::string stopped =
         work.stopped_by.empty() ? "" : "; the calibration stopped: " + work.stopped_by;
@@ -120,6 +132,7 @@ void check(const common::StageCommand& command, const common::SceneFile& file, c
     common::print_check_report(
         scene.effects.records,
         {{"blocks", fmt::format("{}, {} free to move; {} spheres", scene.placed.size(), moving, spheres)},
+         {"a block", weights_of(scene)},
          {"fixed", fmt::format("{} spheres, {} planes", scene.surroundings.fixed_spheres.size(),
                                scene.surroundings.planes.size())},
          {"links", fmt::format("{}", scene.wires.links.size())},

@@ -157,6 +157,18 @@ std::string other_flow_of(const common::StageCommand& command, FlowSource& flow)
     return fmt::format("the run goes on in another flow than that of {}", command.from.string());
 }
 
+/// Legal, and easily an oversight where the scene describes a near field. Empty where there is a flow, no
+/// near field or no water.
+std::string water_without_flow(const common::StageCommand& command, const common::SceneFile& file,
+                               const Scene& scene) {
+    if (!command.upstream.empty() || !file.has_section("cmps") || !scene.effects.fluid_force) return {};
+    const UniformWater& water = scene.uniform_water;
+    const bool is_still = water.velocity.isZero(0) && water.acceleration.isZero(0);
+    return fmt::format(
+        "no --flow is given though the scene describes a near field ([cmps]): the blocks are in {}",
+        is_still ? "still water" : "the uniform water of dem.current");
+}
+
 std::string scene_digest_of(const common::SceneFile& file, const common::SceneFile* layout,
                             const Scene& scene, const std::string& input) {
     return file.digest((layout != nullptr ? layout->digest() : std::string()) +
@@ -270,6 +282,8 @@ void run(const common::StageCommand& command, const common::SceneFile& file, con
     Report report(command.out, file, scene, digest, input);
     if (flow.has_flow()) report.describe_input(command.upstream);
     if (!flow.without_record().empty()) report.say("input", flow.without_record());
+    if (const std::string water = water_without_flow(command, file, scene); !water.empty())
+        report.say("water", water);
     if (const std::string other = other_flow_of(command, flow); !other.empty())
         report.say("restart.flow", other);
     try {

@@ -39,14 +39,19 @@ struct WaterSamples {
 struct UniformWater {
     Vector velocity{0, 0, 0};  ///< at t = 0, m/s
     Vector acceleration{0, 0, 0};
-    double element_diameter = 0.008;  ///< over which the surface is blended, m
+    double element_diameter = 0.008;  ///< of the spheres that it wets, m
     bool surface = true;              ///< false: water everywhere
     double time = 0;                  ///< s
 
     void set_time(double t) { time = t; }
     bool is_steady() const { return acceleration.isZero(0); }
 
-    double wet_at(double z) const { return surface ? std::clamp(0.5 - z / element_diameter, 0.0, 1.0) : 1.0; }
+    /// Wet share of the volume of a sphere whose centre is at z: its cap below the surface, (3 - 2 x) x^2
+    /// when the share x of its diameter is immersed.
+    double wet_at(double z) const {
+        const double immersed = std::clamp(0.5 - z / element_diameter, 0.0, 1.0);
+        return surface ? immersed * immersed * (3 - 2 * immersed) : 1.0;
+    }
     /// At the places (x, z), m; `samples` has their size.
     void sample(const std::vector<double>& x, const std::vector<double>& z, WaterSamples& samples) const;
 };

@@ -309,7 +309,8 @@ TEST(FlowGrid, OutsideIsAnErrorUnlessStill) {
     EXPECT_EQ(water_at(still, 1.01, -0.3).velocity.x[0], 0);
     EXPECT_EQ(water_at(still, 1.01, -0.3).wet[0], 1);
     EXPECT_EQ(water_at(still, 1.01, 0.3).wet[0], 0);
-    EXPECT_DOUBLE_EQ(water_at(still, 1.01, -0.002).wet[0], 0.75);  // a quarter of an element below z = 0
+    // A quarter of an element below z = 0: the cap of a sphere, 3/4 of its diameter deep.
+    EXPECT_DOUBLE_EQ(water_at(still, 1.01, -0.002).wet[0], 27.0 / 32);
 }
 
 TEST(FluidLoads, LoadKeptForASleeperIsOffByNoMoreThanItSays) {

@@ -13,6 +13,33 @@ using dem::Quaternion;
 using dem::Vector;
 using dem_cases::World;
 
+/// Archimedes: the cap below the surface, (3 - 2 x) x^2 of the sphere when x of its diameter is immersed,
+/// displaces the sphere's weight.
+TEST(Floating, SphereLiesWhereItsCapCarriesIt) {
+    for (const double s : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+        double dry = 0, wet = 1;  // immersed shares between which the cap's is s
+        while (wet - dry > 1e-15) {
+            const double x = 0.5 * (dry + wet);
+            ((3 - 2 * x) * x * x < s ? dry : wet) = x;
+        }
+        World world;
+        world.wet = true;
+        world.gravity = Vector(0, 0, -9.81);
+        world.time_step = 2e-4;
+        world.element.density_ratio = s;
+        world.water.viscosity = 1e-3;  // brings it to rest
+        const double d = world.element.diameter, expected = (0.5 - wet) * d;
+        world.add("sphere", Vector(0, 0, expected + 0.05 * d));
+        const auto simulation = world.build();
+        simulation->start(0);
+        simulation->advance(4);
+        EXPECT_NEAR(simulation->blocks.position[0].z() / d, expected / d, 1e-6) << "s = " << s;
+        if (s == 0.7) {
+            EXPECT_NEAR(expected / d, -0.137, 5e-4);
+        }
+    }
+}
+
 TEST(FreeFall, StartsWithReducedWeightAndEndsAtTheTerminalSpeed) {
     World world;
     world.wet = true;
