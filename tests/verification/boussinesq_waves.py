@@ -45,6 +45,7 @@ def height_asked_for_is_the_height_that_arrives(folder):
     which = "height of regular waves; H 0.01 to 0.3 m in 0.8 m; T 1.1 to 3 s: "
     check_figure(error_figure("boussinesq", which + "largest mean difference", max(means, key=abs), "H"))
     check_figure(error_figure("boussinesq", which + "largest spread along the flume", max(spreads), "H"))
+    check_below("largest spread along the flume", max(spreads), 0.02, "H", "what the sponge sends back, and nothing more")
 
 
 @test
@@ -160,6 +161,7 @@ def groups_carry_their_long_wave(folder):
             slopes.append(theory @ level / (theory @ theory))
         slope[bound] = numpy.mean(slopes)
         print(f"    {bound}: level over theory by regression " + ", ".join(f"{value:.2f}" for value in slopes) + f"; largest mean level {set_up[bound]:.3f} mm")
+    check_figure(error_figure("boussinesq", "long wave under groups over that of Longuet-Higgins and Stewart; mean of seven gauges", slope["second_order"], reference=1.0))
     check_between("second order: level over theory", slope["second_order"], 0.85, 1.25, "", "theory of narrow bands; long waves that the sponge sends back scatter it by a tenth")
     check_below("linear: level over theory", slope["none"], 0.6, "", "the free wave takes most of it away")
     check_below("second order: largest mean level", set_up["second_order"], 0.05, "mm", "no mean flux; linear waves pile up water")

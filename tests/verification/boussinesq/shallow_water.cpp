@@ -56,6 +56,7 @@ TEST(DamBreak, OnAWetBedIsStokers) {
                 std::log2(coarse / fine));
     EXPECT_TRUE(figures::error("boussinesq", "Stoker's dam break by cells of 0.05 m: mean difference", fine,
                                "of the depth"));
+    EXPECT_LT(fine, 3e-3);                     // a cell of the shock is dx / 10 m = 5e-3 times its jump
     EXPECT_GT(std::log2(coarse / fine), 0.8);  // first order at a shock
 }
 
@@ -65,6 +66,7 @@ TEST(DamBreak, OnADryBedIsRitters) {
                 std::log2(coarse / fine));
     EXPECT_TRUE(figures::error("boussinesq", "Ritter's dam break by cells of 0.05 m: mean difference", fine,
                                "of the depth"));
+    EXPECT_LT(fine, 3e-3);                     // the front is a thin film, one to two cells late
     EXPECT_GT(std::log2(coarse / fine), 0.7);  // between the fan's second and the front's first order
 }
 
