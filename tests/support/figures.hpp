@@ -16,6 +16,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace figures {
@@ -131,6 +132,17 @@ inline ::testing::AssertionResult ensemble(const std::string& stage, const std::
         std::abs(mean - std::stod(row->value)) <= width,
         fmt::format("{}: {:.4g} {} in the mean of {}, published {} (n = {}, spread {}; within {:.3g})", name,
                     mean, unit, members.size(), row->value, row->n, row->standard_deviation, width));
+}
+
+/// Where the true mean of an ensemble figure lies, but for a chance of a false alarm: what a claim about it
+/// has to hold for. Anything at all where nothing is published.
+inline std::pair<double, double> published_interval(const std::string& stage, const std::string& name) {
+    const Table table = read(stage);
+    const Row* row = published(table, name, "ensemble");
+    if (row == nullptr) return {-HUGE_VAL, HUGE_VAL};
+    const double half = band(std::stod(row->n), std::stod(row->standard_deviation), HUGE_VAL),
+                 mean = std::stod(row->value);
+    return {mean - half, mean + half};
 }
 
 /// Below a limit known beforehand, which is what is published.
