@@ -280,18 +280,7 @@ Wires layout_wires(const Blocks& blocks, const Scene& scene, const Wires* earlie
             const bool is_kept = old != known.end() && !is_put_back(scene, place);
             if (only_kept && !is_kept) continue;
             const double image = nearest_image(scene.placed, place.block_a, place.block_b, period);
-            const double apart = distance(blocks, place, image);
-            if (!is_kept && link.rest_length &&
-                apart > (*link.rest_length + wires.longest_stretch) * (1 + 1e-12))
-                throw common::InputError(fmt::format(
-                    "wires: the link of blocks {} and {} (spheres {} and {}) has a rest_length "
-                    "of {:.6g} m and "
-                    "breaks beyond {:.10g} m, but is mounted at a distance of {:.10g} m: it would "
-                    "break at once; "
-                    "give it a longer rest_length, or none",
-                    place.block_a + 1, place.block_b + 1, place.sphere_a + 1, place.sphere_b + 1,
-                    *link.rest_length, *link.rest_length + wires.longest_stretch, apart));
-            const double mounted = link.rest_length.value_or(apart + link.slack);
+            const double mounted = link.rest_length.value_or(distance(blocks, place, image) + link.slack);
             wires.add(place.block_a, place.sphere_a, place.block_b, place.sphere_b, mounted, stiffness,
                       image);
             if (!is_kept) continue;
@@ -306,6 +295,29 @@ Wires layout_wires(const Blocks& blocks, const Scene& scene, const Wires* earlie
 
 void mount_layout(Simulation& simulation, const Scene& scene, const Wires* earlier) {
     if (scene.effects.wires) simulation.mount_wires(layout_wires(simulation.blocks, scene, earlier, false));
+}
+
+void require_holding_wires(const Blocks& blocks, const Scene& scene, const Wires* earlier, double margin) {
+    if (!scene.effects.wires || !scene.effects.wire_breaking) return;
+    std::map<WirePlace, std::size_t> known;
+    if (earlier != nullptr) known = places_of(*earlier);
+    const double period = scene.surroundings.period;
+    for (const auto& link : scene.wires.links) {
+        if (!link.rest_length) continue;
+        const double longest = *link.rest_length + scene.wires.psi * scene.element.diameter;
+        for (const auto& place : wires_of(scene.placed, link, period)) {
+            if (known.contains(in_order(place)) && !is_put_back(scene, place)) continue;
+            const double apart =
+                distance(blocks, place, nearest_image(scene.placed, place.block_a, place.block_b, period));
+            if (apart <= longest * (1 + 1e-12) + margin) continue;
+            throw common::InputError(fmt::format(
+                "wires: the link of blocks {} and {} (spheres {} and {}) has a rest_length of {:.6g} m and "
+                "breaks beyond {:.10g} m, but is mounted at a distance of {:.10g} m: it would break at once; "
+                "give it a longer rest_length, or none",
+                place.block_a + 1, place.block_b + 1, place.sphere_a + 1, place.sphere_b + 1,
+                *link.rest_length, longest, apart));
+        }
+    }
 }
 
 void require_kept_rest_lengths(const Scene& scene, const Wires& earlier) {

@@ -32,6 +32,11 @@ void take_over(Simulation& simulation, const PackedPoses& packed, const std::vec
 /// length and damage, unless one of their blocks was put back; new ones take the present distance.
 void mount_layout(Simulation& simulation, const Scene& scene, const Wires* earlier);
 
+/// Throws common::InputError where a rest length that the layout gives is so short that its wire, mounted
+/// where blocks stand now, would break at once. Not of wires that are kept from `earlier` (may be null).
+/// `margin`: so much farther apart they may be, where blocks have yet to settle, m.
+void require_holding_wires(const Blocks& blocks, const Scene& scene, const Wires* earlier, double margin = 0);
+
 /// Throws common::InputError where the layout gives another rest length than a wire has that is kept.
 void require_kept_rest_lengths(const Scene& scene, const Wires& earlier);
 

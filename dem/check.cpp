@@ -24,8 +24,9 @@ struct StepWork {
 };
 
 /// The scene's own blocks once they have come down, with its wires: a short stretch of packing or, without
-/// one, of the run itself, then a timed stretch. Never longer than the run.
-StepWork work_of_a_step(const Scene& scene) {
+/// one, of the run itself, then a timed stretch. Never longer than the run. `is_fresh`: the run takes up no
+/// earlier one, and mounts wires where these blocks stand.
+StepWork work_of_a_step(const Scene& scene, bool is_fresh) {
     const bool packs = scene.packing.settle;
     Scene awake = scene;
     awake.effects.sleeping = false;
@@ -47,6 +48,8 @@ StepWork work_of_a_step(const Scene& scene) {
     try {
         // The paper's blocks are placed a tenth of an element above the mound, and are down after 0.016 s.
         advance_until(std::min(0.05 * scene.time_scale, 0.5 * longest), 2);
+        if (packs && is_fresh)  // they settle by less than a tenth of an element from here
+            require_holding_wires(simulation->blocks, scene, nullptr, 0.1 * scene.element.diameter);
         mount_layout(*simulation, scene, nullptr);
         before = simulation->steps();
         advance_until(std::min(simulation->time() + 2 * scene.time_scale, longest), 0.2);
@@ -126,7 +129,7 @@ void check(const common::StageCommand& command, const common::SceneFile& file, c
     }
     const double steps = std::ceil((scene.time.end - begin) / scene.step.time_step);
     const StepLimit limit = require_stable_step(file, scene);
-    const StepWork work = work_of_a_step(scene);
+    const StepWork work = work_of_a_step(scene, command.from.empty());
     const PackingWork packing =
         command.from.empty() ? work_of_packing(scene, work) : PackingWork{"stored (--from)", 0};
     common::print_check_report(

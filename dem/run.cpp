@@ -223,6 +223,7 @@ void report_breaks(const Wires& mounted, const Wires& now, Report& report) {
 }  // namespace
 
 double require_input(const common::StageCommand& command, const common::SceneFile& file, const Scene& scene) {
+    if (command.from.empty() && !scene.packing.settle) require_holding_wires(scene.placed, scene, nullptr);
     if (command.from.empty() && command.upstream.empty()) return 0;
     FlowSource flow(command, file, scene);
     return enter(command, scene, flow).begin;
@@ -273,6 +274,7 @@ void run(const common::StageCommand& command, const common::SceneFile& file, con
     const std::string input = input_digest_of(command, flow);
     const std::string digest = scene_digest_of(file, layout, scene, input);
     // Whatever is wrong with the input shows before anything in the folder is touched.
+    if (command.from.empty() && !scene.packing.settle) require_holding_wires(scene.placed, scene, nullptr);
     auto [earlier, begin] = enter(command, scene, flow);
 
     common::OutputFolder folder(command.out, {.stage = "dem", .scene_digest = digest, .input_digest = input},
@@ -307,6 +309,8 @@ void run(const common::StageCommand& command, const common::SceneFile& file, con
             if (scene.effects.tangential_history && !start.without_springs.empty() && !start.calm)
                 report.warn("restart.springs", start.without_springs);
             if (start.calm) report.began_calm(*start.calm);
+            require_holding_wires(start.simulation->blocks, scene,
+                                  start.earlier_wires ? &*start.earlier_wires : nullptr);
             mount_layout(*start.simulation, scene, start.earlier_wires ? &*start.earlier_wires : nullptr);
             flow.require_cover(start.simulation->blocks);
             if (span && span->grid && start.simulation->water() != nullptr)
