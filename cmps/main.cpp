@@ -13,6 +13,7 @@
 #include "cmps/scene_checks.hpp"
 #include "cmps/scene_geometry.hpp"
 #include "cmps/simulation.hpp"
+#include "cmps/wave_sampling.hpp"
 #include "common/check_report.hpp"
 #include "common/errors.hpp"
 #include "common/input_scene.hpp"
@@ -52,6 +53,7 @@ struct Upstream {
     common::WindowReader reader;
     std::string without_record;  // what to tell of windows made by hand
     cmps::WaveField waves;
+    std::string coarse;  // what to tell of windows that lose more of the waves than they should
 
     /// How far the wall may come off its place with the waves still known there, m: a breaking wave moves
     /// water by half a depth each way.
@@ -69,6 +71,12 @@ struct Upstream {
           without_record(common::require_same_scene(file, command.upstream, reader.first().scene_digest)),
           waves(reader, scene.offshore - play(scene), scene.offshore + reach(scene), scene.time.end) {
         waves.check_depth([&](double x) { return -cmps::bottom_level(scene, x); });
+        const cmps::SamplingVerdict sampling =
+            cmps::judge_sampling(scene, common::Interpolation::cubic_slopes, waves.sample_interval());
+        if (!sampling.text.empty())
+            coarse = fmt::format("{}: samples every {} (boussinesq.output_interval)",
+                                 command.upstream.string(), sampling.text);
+        if (sampling.is_refused) throw common::InputError(coarse);
         if (!command.follow && reader.available_until() < scene.time.end - 1e-9)
             throw common::InputError(
                 fmt::format("{}: the wave windows end at t = {:g} s, before time.end = {:g} s",
@@ -98,10 +106,12 @@ int check(const common::StageCommand& command, const common::SceneFile& file, co
     }
     check_water(scene);
     double start = -1;
+    std::string coarse;
     if (!command.upstream.empty() && scene.drive == cmps::Drive::waves) {
         Upstream upstream(command, file, scene);
         start = start_time(scene, &upstream.waves);
         check_start(start, scene);
+        coarse = upstream.coarse;
     }
     const cmps::Forecast forecast = cmps::make_forecast(scene, start);
     const bool start_is_guess = start < 0 && !scene.start && forecast.start > 0;
@@ -124,6 +134,7 @@ int check(const common::StageCommand& command, const common::SceneFile& file, co
     lines.push_back({"error", cmps::expected_error_text(scene.settings.depth / scene.settings.spacing,
                                                         scene.settings.kernel_radius_ratio)});
     for (const cmps::Remark& remark : scene.remarks) lines.push_back({"note", remark.text});
+    if (!coarse.empty()) lines.push_back({"note", coarse});
     common::print_check_report(scene.effects, lines);
     return common::exit_done;
 }
@@ -182,6 +193,10 @@ int run(const common::StageCommand& command, const common::SceneFile& file, cons
     if (upstream && !upstream->without_record.empty()) {
         record.set_note("input", upstream->without_record);
         if (!goes_on) progress.say(upstream->without_record);
+    }
+    if (upstream && !upstream->coarse.empty()) {
+        record.set_note("waves.sampling", upstream->coarse);
+        if (!goes_on) progress.say(upstream->coarse);
     }
     for (const cmps::Remark& remark : scene.remarks) {
         record.set_note(remark.name, remark.text);

@@ -9,6 +9,7 @@
 #include "cmps/scene_checks.hpp"
 #include "cmps/scene_geometry.hpp"
 #include "cmps/time_table.hpp"
+#include "cmps/wave_sampling.hpp"
 #include "common/errors.hpp"
 
 namespace cmps {
@@ -263,6 +264,8 @@ void read_wave_kind(const common::SceneFile& file, Scene& scene, double depth) {
     if (kind == "solitary") return;
     scene.wave_period = waves.number("period", "s", "wave period", Range::positive());
     scene.celerity = phase_speed(scene.wave_period, depth);
+    // the common value; that of waves.peak_enhancement changes little of what samples lose
+    scene.sea_enhancement = kind == "jonswap" ? 3.3 : kind == "bretschneider" ? 1.0 : 0.0;
 }
 
 /// Waves lower than the particles can tell, and a threshold that none of them reaches.
@@ -409,8 +412,10 @@ void read_output(const common::SceneFile& file, const Section& section, Scene& s
     const auto z = flow.numbers("z", "m", "range of the grid", 2, Range::any());
     const double spacing =
         flow.number("spacing", "m", "of the grid", Range::positive(), scene.settings.spacing);
-    const double interval =
-        flow.number("interval", "s", "between samples", common::Range::at_least(1e-6), 0.02);
+    const double interval = flow.number("interval", "s",
+                                        "between samples; default: 80 a wave, more where the accuracy asks "
+                                        "for them, 0.02 where no wave period is known",
+                                        common::Range::at_least(1e-6), default_flow_interval(scene));
     if (x[1] <= x[0]) flow.problem("x", "expected [x0, x1] with x0 < x1");
     if (z[1] <= z[0]) flow.problem("z", "expected [z0, z1] with z0 < z1");
     if (scene.offshore < scene.onshore && (x[0] < scene.offshore || x[1] > scene.onshore))
@@ -428,6 +433,12 @@ void read_output(const common::SceneFile& file, const Section& section, Scene& s
         flow.problem("interval", fmt::format("{:g} s is longer than time.window = {:g} s: a window holds its "
                                              "two ends at least",
                                              interval, scene.time.window));
+    SamplingVerdict sampling;  // else of what was not meant
+    if (!file.has_problems()) sampling = judge_sampling(scene, common::Interpolation::linear, interval);
+    if (sampling.is_refused)
+        flow.problem("interval", sampling.text);
+    else if (!sampling.text.empty())
+        scene.remarks.push_back({"flow.interval", "cmps.flow.interval of " + sampling.text});
     scene.flow = {.x0 = x[0], .x1 = x[1], .z0 = z[0], .z1 = z[1], .spacing = spacing, .interval = interval};
     scene.flow_smoothing =
         flow.number("acceleration_smoothing", "s",
@@ -445,6 +456,7 @@ bool Scene::has_effect(const std::string& name) const {
 Scene read_scene(const common::SceneFile& file) {
     Scene scene;
     scene.time = common::read_time(file);
+    scene.accuracy = file.accuracy();
     scene.perturbation = file.perturbation();
     const Section section = file.section("cmps");
     bool is_sound = read_geometry(file, section, scene);

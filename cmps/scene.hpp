@@ -38,6 +38,7 @@ struct Scene {
     common::TimeSection time;
     std::vector<common::Gauge> gauges;
     Settings settings;
+    common::Accuracy accuracy = common::Accuracy::standard;
     std::int64_t perturbation = 0;  ///< seed, 0: none
 
     // geometry, m
@@ -61,6 +62,7 @@ struct Scene {
     double celerity = 0;             ///< of the waves at the wall, m/s
     double wave_height = 0;          ///< that [waves] gives, m; 0: none
     double wave_period = 0;          ///< that [waves] gives, s; 0: none
+    double sea_enhancement = 0;      ///< of the peak of a sea's spectrum, about; 0: no sea
     std::optional<double> start;     ///< s; absent: at arrival of the waves
     double arrival_threshold = 0;    ///< m
     double viscosity = 0;            ///< kinematic, m2/s

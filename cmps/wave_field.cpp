@@ -37,6 +37,12 @@ void differentiate(const std::vector<double>& x, const std::vector<double>& f, s
     }
 }
 
+double longest_interval(const std::vector<double>& time) {
+    double longest = 0;
+    for (std::size_t k = 1; k < time.size(); ++k) longest = std::max(longest, time[k] - time[k - 1]);
+    return longest;
+}
+
 }  // namespace
 
 WaveField::WaveField(common::WindowReader& reader, double x0, double x1, double end)
@@ -70,6 +76,7 @@ WaveField::WaveField(common::WindowReader& reader, double x0, double x1, double 
     differentiate(x_, bed, bed_x_, bed_xx_);
     eta_.resize(x_.size()), u_.resize(x_.size());
     last_time_ = window.t_begin;
+    sample_interval_ = longest_interval(window.at("/time").as_double());
 }
 
 void WaveField::check_depth(const std::function<double(double)>& depth) const {
@@ -97,6 +104,10 @@ bool WaveField::receive_next() {
         throw common::InputError(
             fmt::format("{}: dataset /time does not reach from t_begin = {:g} s to t_end = {:g} s",
                         reader_.path_of(next_index_).string(), window->t_begin, window->t_end));
+    if (const double longest = longest_interval(time); longest > 1.001 * sample_interval_)
+        throw common::InputError(fmt::format(
+            "{}: dataset /time leaves {:.4g} s between two samples, the first window at most {:.4g} s",
+            reader_.path_of(next_index_).string(), longest, sample_interval_));
     const std::size_t width = window->at("/x").size(), nodes = x_.size();
     for (std::size_t k = 0; k < time.size(); ++k) {
         if (!samples_.empty() && time[k] <= samples_.back().time + time_slack) continue;  // shared by windows

@@ -26,6 +26,9 @@ class WaveField {
     /// are then the waves of another scene.
     void check_depth(const std::function<double(double)>& depth) const;
 
+    /// The longest time between two samples of the first window, s. Later windows may have no longer one.
+    double sample_interval() const { return sample_interval_; }
+
     /// Receives windows until `t1` is covered, and forgets what `t0` and later do not need. Throws InputError
     /// when the upstream stage ended earlier.
     void cover(double t0, double t1);
@@ -56,6 +59,7 @@ class WaveField {
     common::WindowReader& reader_;
     std::int64_t next_index_ = 0;
     double end_, last_time_ = 0;
+    double sample_interval_ = 0;
     double deepest_ = 0;  // water or, where it is higher, ground above it, m
     std::size_t first_node_ = 0;
     std::vector<double> x_, depth_;
