@@ -20,6 +20,13 @@ double number_or(const Json& value, double otherwise) {
     return value.is_number() ? value.get<double>() : otherwise;
 }
 
+void collect(const Json& node, const std::string& name, std::map<std::string, double>& figures) {
+    if (node.is_number()) figures[name] = node.get<double>();
+    if (!node.is_object()) return;
+    for (const auto& [key, inner] : node.items())
+        collect(inner, name.empty() ? key : name + "." + key, figures);
+}
+
 }  // namespace
 
 std::optional<RunSummary> read_run_summary(const std::filesystem::path& folder) {
@@ -37,13 +44,15 @@ std::optional<RunSummary> read_run_summary(const std::filesystem::path& folder) 
                            .wall_time = record.at("wall_time"),
                            .cpu_time = record.at("cpu_time"),
                            .peak_memory = record.at("peak_memory"),
-                           .invariants = {}};
+                           .invariants = {},
+                           .figures = {}};
         for (const auto& [name, entry] : record.at("invariants").items())
             summary.invariants.push_back(
                 {.name = name,
                  .value = number_or(entry.at("value"), std::numeric_limits<double>::quiet_NaN()),
                  .unit = entry.at("unit"),
                  .bound = number_or(entry.at("bound"), std::numeric_limits<double>::infinity())});
+        collect(record.at("figures"), "", summary.figures);
         return summary;
     } catch (const Json::exception&) {
         throw InputError(fmt::format("{}: damaged, or not the record of a run", path.string()));

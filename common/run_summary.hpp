@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct RunSummary {
     double cpu_time = 0;     ///< s
     double peak_memory = 0;  ///< bytes
     std::vector<InvariantRecord> invariants;
+    std::map<std::string, double> figures;  ///< by dotted name: "damage.number"; series and nulls left out
 };
 
 /// Nothing when DIR holds no run.json; throws InputError when it is not a run record.

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
+
 #include <fmt/ranges.h>
+#include <cmath>
 
 #include <algorithm>
 #include <fstream>
@@ -65,6 +67,12 @@ class Reading {
         const auto value = got.is_number() ? got.value<double>() : std::nullopt;
         if (!value || !contains(range, *value)) {
             expected(describe(range), got);
+            return some_value_in(range);
+        }
+        // Products of such numbers leave the range of floating point, far from the key that is to blame.
+        const double size = std::abs(*value);
+        if (std::isfinite(size) && size != 0.0 && (size < 1e-30 || size > 1e30)) {
+            expected("a number whose size can be reckoned with, 1e-30 to 1e30", got);
             return some_value_in(range);
         }
         return *value;

@@ -14,6 +14,7 @@
 #include "common/errors.hpp"
 #include "common/folder_lock.hpp"
 #include "common/scene_file.hpp"
+#include "coupler/answer.hpp"
 #include "coupler/board.hpp"
 #include "coupler/scene_check.hpp"
 #include "coupler/stage_process.hpp"
@@ -155,6 +156,10 @@ int Chain::run() {
     }
     board_.finish(lines());
     write_record("done");
+    for (const auto& stage : stages_) {
+        const std::string answer = stage.place.name == "dem" ? answer_of(stage.folder) : "";
+        if (!answer.empty()) fmt::print("answer: {}\n", answer);
+    }
     return common::exit_done;
 }
 

@@ -29,6 +29,7 @@ Damage assess_damage(const Blocks& blocks, const std::vector<Displacement>& move
         damage.mean_offshore += moved[i].offshore;
         damage.largest_displacement = std::max(damage.largest_displacement, moved[i].total);
     }
+    damage.free_blocks = static_cast<std::size_t>(count);
     if (count > 0) {
         damage.mean_displacement /= count;
         damage.mean_offshore /= count;

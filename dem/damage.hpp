@@ -18,7 +18,8 @@ struct Displacement {
 /// Counts over the blocks that are free to move.
 struct Damage {
     static constexpr std::array<double, 3> levels{0.25, 0.5, 1.0};  ///< displacement over block length
-    std::array<std::size_t, 3> moved{};                             ///< blocks beyond each level
+    std::size_t free_blocks = 0;
+    std::array<std::size_t, 3> moved{};  ///< blocks beyond each level
     /// N_od = blocks moved beyond half a length / (width / block length); of blocks of several lengths, each
     /// counts with its own.
     double number = 0;

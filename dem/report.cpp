@@ -107,6 +107,7 @@ void Report::window_done(const Simulation& simulation, const PackedPoses& packed
     record_.set_figure("energy.wires", energy.wires);
     record_.set_figure("energy.dissipated", energy.dissipated);
     record_.set_figure("energy.water_work", energy.water_work);
+    record_.set_figure("damage.free_blocks", static_cast<double>(damage.free_blocks));
     record_.set_figure("damage.beyond_quarter_length", static_cast<double>(damage.moved[0]));
     record_.set_figure("damage.beyond_half_length", static_cast<double>(damage.moved[1]));
     record_.set_figure("damage.beyond_length", static_cast<double>(damage.moved[2]));
@@ -121,6 +122,8 @@ void Report::window_done(const Simulation& simulation, const PackedPoses& packed
     const Wires& wires = simulation.wires;
     record_.set_figure("wires.count", static_cast<double>(wires.size()));
     record_.set_figure("wires.broken", static_cast<double>(wires.size() - wires.intact_count()));
+    if (wires.size() > 0 && std::isfinite(wires.longest_stretch))
+        record_.set_figure("wires.largest_share_of_breaking", wires.largest_share_of_breaking());
     record_.set_figure("wires.largest_tension",
                        wires.size() > 0
                            ? *std::max_element(wires.largest_tension.begin(), wires.largest_tension.end())

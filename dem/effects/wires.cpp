@@ -110,4 +110,13 @@ std::size_t Wires::intact_count() const {
     return static_cast<std::size_t>(std::count(is_intact.begin(), is_intact.end(), 1));
 }
 
+double Wires::largest_share_of_breaking() const {
+    double share = 0;
+    for (std::size_t k = 0; k < size(); ++k)
+        share = std::max(share, is_intact[k] == 0
+                                    ? 1.0
+                                    : largest_tension[k] / tension_at(k, rest_length[k] + longest_stretch));
+    return share;
+}
+
 }  // namespace dem

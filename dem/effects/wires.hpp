@@ -48,6 +48,8 @@ struct Wires {
     /// From the first end to the second, m.
     Vector between_ends(const Blocks& blocks, std::size_t wire) const;
     std::size_t intact_count() const;
+    /// Largest tension of any wire so far over the one at which it breaks; 1 where one broke.
+    double largest_share_of_breaking() const;
     /// Stored energy at length r, J.
     double energy_at(std::size_t wire, double r) const;
     double tension_at(std::size_t wire, double r) const;

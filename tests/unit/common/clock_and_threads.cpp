@@ -41,6 +41,22 @@ TEST(WindowClock, SamplesHoldBothEndsAndDoNotDependOnTheWindowLength) {
     EXPECT_EQ(samples[3], 0.3);
 }
 
+TEST(WindowClock, TimesIncreaseHoweverOddTheIntervals) {
+    // None of these is a whole number of nanoseconds: samples come as near to window ends as rounding allows.
+    for (const double end : {0.2, 0.20000000037, 0.2000000021, 0.2333333333333333})
+        for (const double length : {0.05, 0.0333333333333, 0.0100000000003})
+            for (const double interval : {0.00333333333333, 0.0000999999994, 1.0000000004e-6, 1e-6}) {
+                const WindowClock clock(0.0123456789012, end, length);
+                for (std::int64_t k = 0; k < clock.window_count(); ++k) {
+                    const auto samples = clock.samples_in(k, interval);
+                    ASSERT_EQ(samples.front(), clock.begin_of(k));
+                    ASSERT_EQ(samples.back(), clock.end_of(k));
+                    for (std::size_t i = 1; i < samples.size(); ++i)
+                        ASSERT_GT(samples[i], samples[i - 1]) << end << ' ' << length << ' ' << interval;
+                }
+            }
+}
+
 TEST(WindowClock, SamplesOfALongRunHaveNoSlivers) {
     const WindowClock clock(0, 4000, 0.7);
     for (std::int64_t k = 0; k < clock.window_count(); ++k) {
