@@ -17,7 +17,7 @@ struct Hit {
 };
 Hit first_hit(const Solid& solid, const Point& at, const Point& direction, double nearest, double farthest) {
     Hit hit{farthest, nullptr};
-    const auto [left, right] = std::minmax(at[0], at[0] + farthest * direction[0]);
+    const auto [left, right] = std::minmax({at[0], at[0] + farthest * direction[0]});
     solid.for_surface(left, right, [&](std::size_t index) {
         const SurfaceSegment& other = solid.surface()[index];
         const double across = direction[0] * other.normal[0] + direction[1] * other.normal[1];
