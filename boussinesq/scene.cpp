@@ -280,7 +280,6 @@ Scene read_scene(const common::SceneFile& file) {
     read_grid_and_ends(file, accuracy, scene);
     scene.gauges = common::read_gauges(file, scene.output_interval);
     for (const auto& gauge : scene.gauges) {
-        if (gauge.name.empty()) file.section("gauges").problem("", "a gauge needs a name");
         if (gauge.kind == common::Gauge::Kind::surface &&
             (gauge.x < scene.bed.front()[0] || gauge.x > scene.bed.back()[0]))
             file.section("gauges").problem(gauge.name,

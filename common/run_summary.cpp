@@ -52,7 +52,7 @@ std::optional<RunSummary> read_run_summary(const std::filesystem::path& folder) 
                  .value = number_or(entry.at("value"), std::numeric_limits<double>::quiet_NaN()),
                  .unit = entry.at("unit"),
                  .bound = number_or(entry.at("bound"), std::numeric_limits<double>::infinity())});
-        collect(record.at("figures"), "", summary.figures);
+        collect(record.value("figures", Json::object()), "", summary.figures);
         return summary;
     } catch (const Json::exception&) {
         throw InputError(fmt::format("{}: damaged, or not the record of a run", path.string()));

@@ -103,9 +103,9 @@ cases = [
     ("coarse", waves, {"cmps": "offshore = 25.0\nonshore = 31.0\nparticle_spacing = 0.5"}, "too coarse"),
     ("too_fine", waves, {"cmps": "offshore = 25.0\nonshore = 31.0\nparticle_spacing = 1e-5"}, "makes about 2.4e+10 particles"),
     ("grid_too_fine", waves, {"cmps__flow": "x = [29.0, 30.0]\nz = [-0.4, 0.1]\nspacing = 2e-5"}, "cmps.flow.spacing: the grid has 1.3e+09 points"),
-    ("grid_too_often", waves, {"cmps__flow": "x = [29.0, 30.0]\nz = [-0.4, 0.1]\ninterval = 1e-6"}, "samples in a window"),
+    ("grid_too_often", waves, {"cmps__flow": "x = [29.0, 30.0]\nz = [-0.4, 0.1]\nspacing = 0.02\ninterval = 1e-6"}, "samples in a window"),
     ("grid_too_seldom", waves, {"cmps__flow": "x = [29.0, 30.0]\nz = [-0.4, 0.1]\ninterval = 2.0"}, "cmps.flow.interval: 2 s is longer than time.window = 1 s"),
-    ("gauge_too_often", waves, {"gauges": "g = {x = 29.0, interval = 1e-9}"}, "gauges.g.interval: expected a number from 1e-06"),
+    ("gauge_too_often", waves, {"gauges": "g = {x = 29.0, interval = 1e-9}"}, "gauges.g.interval: expected a number of at least 1e-06"),
     # places
     ("ends", waves, {"cmps": "offshore = 31.0\nonshore = 25.0\nparticle_spacing = 0.05"}, "shoreward of cmps.offshore"),
     ("beyond_bed", waves, {"cmps": "offshore = 25.0\nonshore = 45.0\nparticle_spacing = 0.05"}, "lies outside the flume's bed"),

@@ -131,8 +131,8 @@ def run(condition, seed, wired, end):
     if not done(folder):
         words = ["run", options.scene, "--flow", flow_of(flow), "--out", folder, "--quiet", "--set", "accuracy=draft", "--set", f"dem.mound.seed={seed}",
                  "--set", f"time.end={end}", "--set", "dem.output_interval=0.25"]
-        for key, value in settings.items():
-            words += ["--set", f"{key}={value}"]
+        for setting in [*FLOWS[flow], *(f"{key}={value}" for key, value in settings.items())]:
+            words += ["--set", setting]
         if wired:
             words += ["--wires", layout_of(wires)]
         call("dem", *words)
@@ -207,7 +207,8 @@ for flow in () if options.conditions and "half" not in options.conditions else (
         folder = work / f"half_{name_of(flow)}_{seed}"
         if not done(folder):
             call("dem", "run", options.scene, "--flow", flow_of(flow), "--wires", layout, "--out", folder, "--quiet", "--set", "accuracy=draft",
-                 "--set", f"dem.mound.seed={seed}", "--set", f"time.end={26.0 if options.smoke else END}", "--set", "dem.output_interval=0.25")
+                 "--set", f"dem.mound.seed={seed}", "--set", f"time.end={26.0 if options.smoke else END}", "--set", "dem.output_interval=0.25",
+                 *(word for setting in FLOWS[flow] for word in ("--set", setting)))
         _, position = run_folder.read_series(folder, "/blocks/position")
         offshore = (position[0] - position[-1])[60:100, 0].reshape(2, 20)
         wired, bare = offshore[:, WIRED[0] - 1:WIRED[1]], offshore[:, 20 - WIRED[1]:21 - WIRED[0]]
