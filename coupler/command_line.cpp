@@ -14,7 +14,9 @@ Command read_command(int argc, char** argv) {
     CLI::App app{"Runs the chain waves - near field - blocks and watches over it.", "coupler"};
     app.set_version_flag("--version", common::version_text("coupler"));
     app.require_subcommand(1);
-    app.footer("Exit status: 0 done, 1 failed while running, 2 bad input or usage, 130 after Ctrl-C, SIGTERM or SIGHUP.");
+    app.footer(
+        "Exit status: 0 done, 1 failed while running, 2 bad input or usage, 130 after Ctrl-C, SIGTERM or "
+        "SIGHUP.");
 
     CLI::App* run = app.add_subcommand(
         "run", "run boussinesq, cmps and dem side by side: DIR/waves, DIR/flow, DIR/blocks");
