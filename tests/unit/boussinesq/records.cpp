@@ -1,5 +1,8 @@
 // Statistics of made-up records with known answers, tables from files, beds.
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <string>
 
 #include <cmath>
 #include <filesystem>
@@ -65,7 +68,8 @@ TEST(Reflection, TellsTwoWavesApart) {
 }
 
 TEST(CsvTable, NamesFileAndLineOfAMistake) {
-    const auto path = std::filesystem::temp_directory_path() / "boussinesq_table.csv";
+    const auto path =
+        std::filesystem::temp_directory_path() / ("boussinesq_table_" + std::to_string(::getpid()) + ".csv");
     const auto message = [&](const char* text) -> std::string {
         std::ofstream(path) << text;
         try {

@@ -2,6 +2,9 @@
 #include "cmps/balance.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <string>
 
 #include <cmath>
 #include <filesystem>
@@ -229,7 +232,8 @@ TEST(Work, OfAPistonIsWhatTheWaterGains) {
 
 /// A block that falls freely: the table's gravity does all the work there is.
 TEST(Work, OfGravityFromATableIsWhatFallingWaterGains) {
-    const auto path = std::filesystem::temp_directory_path() / "tsunagi_gravity_of_a_fall.csv";
+    const auto path = std::filesystem::temp_directory_path() /
+                      ("tsunagi_gravity_of_a_fall_" + std::to_string(::getpid()) + ".csv");
     std::ofstream(path) << "t, gx, gz\n0, 3, -9.81\n10, 3, -9.81\n";
     cmps::Particles block;
     for (int i = 0; i < 8; ++i)

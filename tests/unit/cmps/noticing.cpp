@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +55,8 @@ TEST(Noticing, ViscosityLimitsTheStep) {
 }
 
 TEST(Noticing, WeightlessWaterThatAlmostRestsBearsTheGravityToCome) {
-    const auto path = std::filesystem::temp_directory_path() / "tsunagi_gravity_from_none.csv";
+    const auto path = std::filesystem::temp_directory_path() /
+                      ("tsunagi_gravity_from_none_" + std::to_string(::getpid()) + ".csv");
     std::ofstream(path) << "t, gx, gz\n0, 0, 0\n1, 0, 0\n1.001, 0, -9.81\n10, 0, -9.81\n";
     cmps::NearField field = tank();
     const double weighing = field.largest_step();

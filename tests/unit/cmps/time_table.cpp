@@ -2,6 +2,9 @@
 #include "cmps/time_table.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <string>
 
 #include <cmath>
 #include <filesystem>
@@ -11,7 +14,8 @@
 namespace {
 
 double period_of(const std::function<double(double)>& path) {
-    const auto file = std::filesystem::temp_directory_path() / "tsunagi_path_that_swings.csv";
+    const auto file = std::filesystem::temp_directory_path() /
+                      ("tsunagi_path_that_swings_" + std::to_string(::getpid()) + ".csv");
     {
         std::ofstream rows(file);
         for (int i = 0; i <= 1000; ++i) rows << 0.01 * i << ", " << path(0.01 * i) << "\n";

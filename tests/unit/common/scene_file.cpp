@@ -1,6 +1,9 @@
 #include "common/scene_file.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <string>
 
 #include <filesystem>
 #include <fstream>
@@ -242,7 +245,8 @@ TEST(SceneFile, ReferenceIsItselfAScene) {
 }
 
 TEST(SceneFile, FileContentEntersTheDigest) {
-    const auto folder = std::filesystem::temp_directory_path() / "tsunagi_scene_file_test";
+    const auto folder = std::filesystem::temp_directory_path() /
+                        ("tsunagi_scene_file_test_" + std::to_string(::getpid()) + "");
     std::filesystem::create_directories(folder);
     const auto digest_with = [&](const std::string& content) {
         std::ofstream(folder / "series.csv") << content;

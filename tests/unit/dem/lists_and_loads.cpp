@@ -2,6 +2,7 @@
 /// threads.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 #include <set>
 
@@ -25,11 +26,16 @@ World heap(int count, unsigned seed, double period = 0) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> place(0, 0.2), turn(-1, 1);
     const char* names[] = {"beehive96", "tetrapod", "cube27", "sphere"};
-    for (int k = 0; k < count; ++k)
-        world.add(names[k % 4], Vector(place(random), place(random), 0.05 + 0.06 * k / 4.0),
-                  Vector(turn(random), turn(random), turn(random)) * 0.3, false,
-                  Quaternion(turn(random), turn(random), turn(random), turn(random)).normalized(),
-                  Vector(turn(random), turn(random), turn(random)) * 5);
+    for (int k = 0; k < count; ++k) {
+        // Drawn one by one: the order in which arguments are evaluated is the compiler's.
+        std::array<double, 12> drawn;
+        for (std::size_t i = 0; i < 10; ++i) drawn[i] = turn(random);
+        for (std::size_t i = 10; i < 12; ++i) drawn[i] = place(random);
+        world.add(names[k % 4], Vector(drawn[11], drawn[10], 0.05 + 0.06 * k / 4.0),
+                  Vector(drawn[9], drawn[8], drawn[7]) * 0.3, false,
+                  Quaternion(drawn[6], drawn[5], drawn[4], drawn[3]).normalized(),
+                  Vector(drawn[2], drawn[1], drawn[0]) * 5);
+    }
     std::vector<Vector> floor;
     for (int i = -10; i < 40; ++i)
         for (int j = -10; j < 40; ++j) floor.emplace_back(0.008 * i, 0.008 * j, 0.003 * turn(random));
